@@ -1,0 +1,68 @@
+// switchyard/model/evaluator.hpp - functions of a vector that a program binds to its variables.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <string>
+#include <utility>
+
+#include "switchyard/error.hpp"
+
+namespace switchyard {
+
+using SparseMatrix = Eigen::SparseMatrix<double>;
+using VectorRef = Eigen::Ref<const Eigen::VectorXd>;
+
+/// The argument "a matrix of coefficients", dense or sparse; stored sparse, exact zeros left out.
+class CoefficientMatrix {
+ public:
+  // NOLINTBEGIN(google-explicit-constructor): an argument type, made to convert
+  template <class Derived>
+  CoefficientMatrix(const Eigen::MatrixBase<Derived>& dense)
+      : sparse_(dense.template cast<double>().sparseView(1.0, 0.0)) {}
+  CoefficientMatrix(SparseMatrix sparse) : sparse_(std::move(sparse)) { sparse_.makeCompressed(); }
+  // NOLINTEND(google-explicit-constructor)
+
+  [[nodiscard]] const SparseMatrix& sparse() const { return sparse_; }
+  SparseMatrix take() && { return std::move(sparse_); }
+
+ private:
+  SparseMatrix sparse_;
+};
+
+/// A function R^num_vars -> R^num_outputs. Evaluation is const and may happen from several threads
+/// at once; the Update... members are for one thread while no other reads.
+class EvaluatorBase {
+ public:
+  EvaluatorBase(const EvaluatorBase&) = delete;
+  EvaluatorBase& operator=(const EvaluatorBase&) = delete;
+  virtual ~EvaluatorBase() = default;
+
+  [[nodiscard]] int num_vars() const { return num_vars_; }
+  [[nodiscard]] int num_outputs() const { return num_outputs_; }
+
+  /// y = f(x). Throws InvalidArgument where x has another size than num_vars().
+  void Eval(VectorRef x, Eigen::VectorXd* y) const {
+    Require(x.size() == num_vars_, "Eval of ", Name(), ": x needs ", num_vars_, " entries, got ",
+            x.size());
+    *y = DoEval(x);
+  }
+
+  /// What messages call it.
+  void set_description(std::string description) { description_ = std::move(description); }
+  [[nodiscard]] const std::string& get_description() const { return description_; }
+  /// The description, or the kind of function where there is none.
+  [[nodiscard]] std::string Name() const { return description_.empty() ? Kind() : description_; }
+  [[nodiscard]] virtual std::string Kind() const = 0;
+
+ protected:
+  EvaluatorBase(int num_vars, int num_outputs) : num_vars_(num_vars), num_outputs_(num_outputs) {}
+  [[nodiscard]] virtual Eigen::VectorXd DoEval(const VectorRef& x) const = 0;
+
+ private:
+  int num_vars_;
+  int num_outputs_;
+  std::string description_;
+};
+
+}  // namespace switchyard

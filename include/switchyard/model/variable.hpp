@@ -1,0 +1,83 @@
+// switchyard/model/variable.hpp - a decision variable: an id. Its name, type and bounds are the
+// program's.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <functional>
+#include <list>
+#include <vector>
+
+namespace switchyard {
+
+enum class VariableType : std::uint8_t { kContinuous, kInteger, kBinary };
+
+/// An id, unique in the process. Two variables are the same exactly when their ids are equal.
+class Variable {
+ public:
+  using Id = std::int64_t;
+
+  Variable() = default;  // a dummy: in no program
+  explicit Variable(Id id) : id_(id) {}
+
+  [[nodiscard]] Id get_id() const { return id_; }
+  [[nodiscard]] bool is_dummy() const { return id_ == 0; }
+  friend bool operator==(Variable a, Variable b) { return a.id_ == b.id_; }
+  friend auto operator<=>(Variable a, Variable b) { return a.id_ <=> b.id_; }
+
+ private:
+  Id id_ = 0;
+};
+
+using DecisionVariable = Variable;
+template <int rows, int cols>
+using MatrixDecisionVariable = Eigen::Matrix<Variable, rows, cols>;
+template <int rows>
+using VectorDecisionVariable = MatrixDecisionVariable<rows, 1>;
+using MatrixXDecisionVariable = MatrixDecisionVariable<Eigen::Dynamic, Eigen::Dynamic>;
+using VectorXDecisionVariable = VectorDecisionVariable<Eigen::Dynamic>;
+using VariableRefList = std::list<Eigen::Ref<const VectorXDecisionVariable>>;
+
+/// The argument "some variables": one, a vector, a matrix (column by column), or a list of vectors
+/// one behind the other.
+class VariableList {
+ public:
+  // NOLINTBEGIN(google-explicit-constructor): an argument type, made to convert
+  VariableList(Variable one) : all_(1) { all_(0) = one; }
+  template <class Derived>
+  VariableList(const Eigen::MatrixBase<Derived>& some) : all_(some.size()) {
+    static_assert(std::is_same_v<typename Derived::Scalar, Variable>, "these are not variables");
+    for (Eigen::Index j = 0, k = 0; j < some.cols(); ++j) {
+      for (Eigen::Index i = 0; i < some.rows(); ++i) all_(k++) = some(i, j);
+    }
+  }
+  VariableList(const VariableRefList& parts) { Join(parts); }
+  VariableList(std::initializer_list<VectorXDecisionVariable> parts) { Join(parts); }
+  // NOLINTEND(google-explicit-constructor)
+
+  [[nodiscard]] const VectorXDecisionVariable& vector() const { return all_; }
+
+ private:
+  template <class Parts>
+  void Join(const Parts& parts) {
+    Eigen::Index size = 0;
+    for (const auto& part : parts) size += part.size();
+    all_.resize(size);
+    Eigen::Index at = 0;
+    for (const auto& part : parts) {
+      all_.segment(at, part.size()) = part;
+      at += part.size();
+    }
+  }
+
+  VectorXDecisionVariable all_;
+};
+
+}  // namespace switchyard
+
+template <>
+struct std::hash<switchyard::Variable> {
+  std::size_t operator()(switchyard::Variable v) const noexcept {
+    return std::hash<switchyard::Variable::Id>()(v.get_id());
+  }
+};
