@@ -21,7 +21,9 @@ function(switchyard_add_plugin name)
     PREFIX "" OUTPUT_NAME ${name}
     LIBRARY_OUTPUT_DIRECTORY ${SWITCHYARD_PLUGIN_OUTPUT}
     BUILD_RPATH "$ORIGIN/deps" INSTALL_RPATH "$ORIGIN/deps")
-  target_link_options(${target} PRIVATE -Wl,--no-undefined -Wl,--exclude-libs,ALL)
+  set(map ${PROJECT_SOURCE_DIR}/cmake/plugin.map)
+  target_link_options(${target} PRIVATE -Wl,--no-undefined -Wl,--version-script=${map})
+  set_property(TARGET ${target} APPEND PROPERTY LINK_DEPENDS ${map})
   foreach(file ${arg_BRINGS})
     file(COPY ${file} DESTINATION ${SWITCHYARD_PLUGIN_OUTPUT}/deps FOLLOW_SYMLINK_CHAIN)
     install(FILES ${file} DESTINATION ${CMAKE_INSTALL_LIBDIR}/${SWITCHYARD_PLUGIN_SUBDIR}/deps)

@@ -1,0 +1,36 @@
+# The habits. Each target does its own set-up; `make help` says what there is.
+.DEFAULT_GOAL := help
+.PHONY: help setup build demo test install bench check clean
+
+PREFIX ?= /usr/local
+BUILD := build
+CTEST := ctest --test-dir $(BUILD) --output-on-failure --timeout 600
+
+help: ## show this list
+	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "  make %-9s %s\n", $$1, $$2}' Makefile
+
+setup: ## install what the build needs (system packages, HiGHS from PyPI)
+	@scripts/setup
+
+build: setup ## build everything; leaves build/bin/switchyard and its plugins
+	@scripts/build
+
+demo: setup ## build, and solve three problems with every backend that takes them
+	@scripts/build products
+	@scripts/demo
+
+test: build ## build, and run the tests
+	@$(CTEST) -j "$$(scripts/jobs)"
+
+install: setup ## install to PREFIX (/usr/local unless given)
+	@scripts/build products
+	@scripts/install "$(PREFIX)"
+
+bench: build ## build, and run the benchmarks
+	@scripts/bench
+
+check: ## the format and the include rules, without a build
+	@scripts/check
+
+clean: ## remove what was built; what setup fetched stays
+	@scripts/clean
