@@ -1,0 +1,2 @@
+#[link(name = "blas")]
+extern "C" {}

@@ -1,0 +1,2 @@
+#[link(name = "lapack")]
+extern "C" {}
