@@ -1,0 +1,94 @@
+// core/lower/bridge.hpp - from a problem to one that a backend takes, and the way back.
+//
+// A bridge is a pure map: the same problem gives the same image. It may append variables, and
+// relabel rows and cones; it never reorders or drops a variable, so bounds of variables pass
+// straight through all bridges that keep them as bounds, and x is the head of the image's x.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/lower/lowering.hpp"
+#include "switchyard/problem.hpp"
+
+namespace switchyard {
+
+/// Features of a problem as bits: sy_solver.accepts below, 32 + a cone's kind above. A backend's
+/// abilities are the same bits, so `features & ~abilities` is what stands between the two.
+using Features = std::uint64_t;
+
+constexpr Features ConeFeature(sy_cone_kind kind) { return Features{1} << (32 + kind); }
+Features FeaturesOf(const sy_problem& problem);
+/// What the backend takes where there are integers, and where there are none.
+Features AbilitiesOf(const sy_solver& solver, bool with_integers);
+/// "variable bounds", "power cones", ... for messages.
+std::string DescribeFeatures(Features features);
+
+/// One application of a bridge: the image, and the maps of vectors over the two problems.
+class Bridge {
+ public:
+  Bridge(const Bridge&) = delete;
+  Bridge& operator=(const Bridge&) = delete;
+  virtual ~Bridge() = default;
+
+  [[nodiscard]] const Problem& image() const { return image_; }
+  [[nodiscard]] Problem& image() { return image_; }
+  /// Vectors over the image become vectors over the original: points, duals and rays alike.
+  virtual void Back(Vectors& v) const = 0;
+  /// Vectors over the original become vectors over the image; NaN where nothing is known.
+  virtual void Forward(Vectors& v) const = 0;
+
+ protected:
+  explicit Bridge(ProblemData image) : image_(std::move(image)) {}
+
+ private:
+  Problem image_;
+};
+
+/// A bridge as the planner sees it: a row of the table.
+struct BridgeKind {
+  const char* name;
+  Features removes;
+  Features adds;  // at most
+  /// Throws InvalidArgument where this problem cannot be mapped.
+  std::unique_ptr<Bridge> (*apply)(const sy_problem&);
+};
+
+/// All bridges, each in a file of its own in bridges/.
+const std::vector<BridgeKind>& BridgeKinds();
+
+using BridgePlan = std::vector<const BridgeKind*>;
+
+/// The shortest chain of bridges after which only `abilities` are needed.
+struct Planned {
+  bool found = false;
+  BridgePlan plan;
+  Features missing = 0;  // where none was found: what no bridge removes
+};
+Planned PlanBridges(Features features, Features abilities);
+
+/// A chain of bridges applied to a problem that stays in place as long as the chain.
+class BridgeChain {
+ public:
+  BridgeChain() = default;
+  BridgeChain(const sy_problem& problem, const BridgePlan& plan);
+
+  [[nodiscard]] bool empty() const { return bridges_.empty(); }
+  /// The last image; only where not empty().
+  [[nodiscard]] const Problem& image() const { return bridges_.back()->image(); }
+  void Back(Vectors& v) const;
+  void Forward(Vectors& v) const;
+  /// Hints that the chain could not map, a sentence each.
+  [[nodiscard]] const std::vector<std::string>& dropped_hints() const { return dropped_; }
+
+ private:
+  void MapHints(const sy_problem& problem);
+
+  std::vector<std::unique_ptr<Bridge>> bridges_;
+  std::vector<sy_hint> hints_;
+  std::vector<std::string> dropped_;
+};
+
+}  // namespace switchyard

@@ -1,0 +1,217 @@
+#include "core/lower/lowering.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/lower/difference.hpp"
+
+namespace switchyard {
+namespace {
+
+std::size_t At(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+/// Writes scale * a for every entry a of `matrix` to `out`, rows from `first_row`, columns where
+/// `index` has them.
+void WriteMatrix(const SparseMatrix& matrix, const std::vector<int>& index, std::int32_t first_row,
+                 double scale, TripletMatrix& out) {
+  for (int j = 0; j < matrix.outerSize(); ++j) {
+    for (SparseMatrix::InnerIterator entry(matrix, j); entry; ++entry) {
+      out.Add(first_row + static_cast<std::int32_t>(entry.row()),
+              index[static_cast<std::size_t>(j)], scale * entry.value());
+    }
+  }
+}
+
+void WriteQuadratic(const SparseMatrix& Q, const std::vector<int>& index, double sign,
+                    TripletMatrix& P) {
+  for (int j = 0; j < Q.outerSize(); ++j) {
+    for (SparseMatrix::InnerIterator entry(Q, j); entry; ++entry) {
+      if (entry.row() > j) break;  // rows ascend: the rest is the lower triangle
+      const int a = index[static_cast<std::size_t>(entry.row())];
+      const int b = index[static_cast<std::size_t>(j)];
+      const bool folded = entry.row() != j && a == b;  // one variable bound twice
+      P.Add(std::min(a, b), std::max(a, b), sign * (folded ? 2 : 1) * entry.value());
+    }
+  }
+}
+
+}  // namespace
+
+Lowering::Lowering(const MathematicalProgram& program) {
+  Write(program);
+  problem_ = Problem(builder_.Finish());
+}
+
+std::uint64_t Lowering::Refresh(const MathematicalProgram& program) {
+  builder_.Rewrite();
+  Write(program);
+  ProblemData fresh = builder_.Finish();
+  const bool same_sizes = fresh.num_vars == problem_.data().num_vars &&
+                          fresh.num_rows() == problem_.data().num_rows() &&
+                          fresh.num_cone_rows() == problem_.data().num_cone_rows();
+  if (!same_sizes || !builder_.SamePatterns()) {
+    builder_ = ProblemBuilder();
+    Write(program);
+    problem_ = Problem(builder_.Finish());
+    return kStructureChanged;
+  }
+  const std::uint64_t kinds = ProblemDifference(problem_.data(), fresh);
+  if (kinds != 0) problem_ = Problem(std::move(fresh));
+  return kinds;
+}
+
+void Lowering::Write(const MathematicalProgram& program) {
+  maximize_ = program.objective_sense() == ObjectiveSense::kMaximize;
+  crossed_ = -1;
+  affine_row_.clear();
+  cone_row_.clear();
+  norm_variable_.clear();
+  builder_.flags = SY_PROBLEM_CONVEX;
+  WriteVariables(program);
+  WriteConstraints(program);
+  num_program_cones_ = static_cast<int>(builder_.cones.size());
+  WriteCosts(program);
+}
+
+void Lowering::WriteVariables(const MathematicalProgram& program) {
+  builder_.AddVariables(program.num_vars());
+  for (int j = 0; j < program.num_vars(); ++j) {
+    const VariableType type = program.variable_type(j);
+    if (type == VariableType::kContinuous) continue;
+    builder_.integer[At(j)] = 1;
+    if (type == VariableType::kBinary) {
+      builder_.x_lower[At(j)] = 0;
+      builder_.x_upper[At(j)] = 1;
+    }
+  }
+  for (const auto& box : program.bounding_box_constraints()) {
+    const auto index = program.FindDecisionVariableIndices(box.variables());
+    for (std::size_t k = 0; k < index.size(); ++k) {
+      double& lower = builder_.x_lower[At(index[k])];
+      double& upper = builder_.x_upper[At(index[k])];
+      const auto row = static_cast<Eigen::Index>(k);
+      lower = std::max(lower, box.evaluator()->lower_bound()[row]);
+      upper = std::min(upper, box.evaluator()->upper_bound()[row]);
+      if (lower > upper && crossed_ < 0) crossed_ = index[k];
+    }
+  }
+}
+
+void Lowering::WriteConstraints(const MathematicalProgram& program) {
+  for (const auto& binding : program.affine_constraints()) {
+    const LinearConstraint& rows = *binding.evaluator();
+    const std::int32_t first = builder_.AddRows(rows.num_constraints());
+    affine_row_.push_back(first);
+    WriteMatrix(rows.get_sparse_A(), program.FindDecisionVariableIndices(binding.variables()),
+                first, 1, builder_.A);
+    for (int i = 0; i < rows.num_constraints(); ++i) {
+      builder_.row_lower[At(first + i)] = rows.lower_bound()[i];
+      builder_.row_upper[At(first + i)] = rows.upper_bound()[i];
+    }
+  }
+  for (const auto& binding : program.cone_constraints()) {
+    const ConeConstraint& cone = *binding.evaluator();
+    const std::int32_t first = builder_.AddCone(cone.cone());
+    cone_row_.push_back(first);
+    // Where each row of z goes: to one row of the cone, or (below the diagonal) to none.
+    std::vector<ConeConstraint::FrameRow> place(static_cast<std::size_t>(cone.A().rows()), {-1, 0});
+    for (int i = 0; i < cone.cone().dim; ++i) {
+      const auto& from = cone.frame()[At(i)];
+      place[At(from.row)] = {first + i, from.scale};
+      builder_.g[At(first + i)] = from.scale * cone.b()[from.row];
+    }
+    const auto index = program.FindDecisionVariableIndices(binding.variables());
+    for (int j = 0; j < cone.A().outerSize(); ++j) {
+      for (SparseMatrix::InnerIterator entry(cone.A(), j); entry; ++entry) {
+        const auto& to = place[static_cast<std::size_t>(entry.row())];
+        if (to.row >= 0) builder_.F.Add(to.row, index[At(j)], to.scale * entry.value());
+      }
+    }
+  }
+}
+
+void Lowering::WriteCosts(const MathematicalProgram& program) {
+  const double sign = maximize_ ? -1 : 1;
+  const auto add_linear = [&](const Eigen::VectorXd& a, const std::vector<int>& index) {
+    for (std::size_t k = 0; k < index.size(); ++k) {
+      builder_.q[At(index[k])] += sign * a[static_cast<Eigen::Index>(k)];
+    }
+  };
+  for (const auto& binding : program.linear_costs()) {
+    add_linear(binding.evaluator()->a(), program.FindDecisionVariableIndices(binding.variables()));
+    builder_.offset += sign * binding.evaluator()->b();
+  }
+  for (const auto& binding : program.quadratic_costs()) {
+    const QuadraticCost& cost = *binding.evaluator();
+    const auto index = program.FindDecisionVariableIndices(binding.variables());
+    WriteQuadratic(cost.Q(), index, sign, builder_.P);
+    add_linear(cost.b(), index);
+    builder_.offset += sign * cost.c();
+    const bool convex =
+        maximize_ ? QuadraticCost(SparseMatrix(-cost.Q()), cost.b()).is_convex() : cost.is_convex();
+    if (!convex) builder_.flags &= ~std::uint32_t{SY_PROBLEM_CONVEX};
+  }
+  for (const auto& binding : program.norm_costs()) WriteNorm(program, binding);
+}
+
+// min t over the epigraph: |z|_2 <= t a Lorentz cone, |z_i| <= t_i or <= t as rows,
+// |z_1..|^2 <= t z_0 the rotated cone 2 s_0 s_1 >= |s_2|^2 at (t, z_0, sqrt2 z_1..).
+void Lowering::WriteNorm(const MathematicalProgram& program, const Binding<NormCost>& binding) {
+  const NormCost& cost = *binding.evaluator();
+  Require(!maximize_, cost.Name(),
+          ": a norm cannot be maximized; the objective is to be maximized");
+  const auto index = program.FindDecisionVariableIndices(binding.variables());
+  const auto m = static_cast<std::int32_t>(cost.b().size());
+  const bool one_each = cost.norm() == NormCost::Norm::kL1;
+  const std::int32_t t = builder_.AddVariables(one_each ? m : 1);
+  norm_variable_.push_back(t);
+  for (std::int32_t k = 0; k < (one_each ? m : 1); ++k) builder_.q[At(t + k)] = 1;
+  if (cost.norm() == NormCost::Norm::kL2) {
+    const std::int32_t first = builder_.AddCone({SY_CONE_SECOND_ORDER, m + 1, 0});
+    builder_.F.Add(first, t, 1);
+    WriteMatrix(cost.A(), index, first + 1, 1, builder_.F);
+    for (std::int32_t i = 0; i < m; ++i) builder_.g[At(first + 1 + i)] = cost.b()[i];
+  } else if (cost.norm() == NormCost::Norm::kPerspectiveQuadratic) {
+    const std::int32_t first = builder_.AddCone({SY_CONE_ROTATED, m + 1, 0});
+    const auto scale = [](Eigen::Index i) { return i == 0 ? 1.0 : std::sqrt(2.0); };
+    builder_.F.Add(first, t, 1);
+    for (int j = 0; j < cost.A().outerSize(); ++j) {
+      for (SparseMatrix::InnerIterator entry(cost.A(), j); entry; ++entry) {
+        builder_.F.Add(first + 1 + static_cast<std::int32_t>(entry.row()), index[At(j)],
+                       scale(entry.row()) * entry.value());
+      }
+    }
+    for (std::int32_t i = 0; i < m; ++i) builder_.g[At(first + 1 + i)] = scale(i) * cost.b()[i];
+  } else {
+    for (const double side : {-1.0, 1.0}) {  // t +- (Ax)_i >= -+ b_i
+      const std::int32_t first = builder_.AddRows(m);
+      WriteMatrix(cost.A(), index, first, side, builder_.A);
+      for (std::int32_t i = 0; i < m; ++i) {
+        builder_.A.Add(first + i, one_each ? t + i : t, 1);
+        builder_.row_lower[At(first + i)] = -side * cost.b()[i];
+      }
+    }
+  }
+}
+
+std::vector<double> Lowering::Extend(const MathematicalProgram& program,
+                                     const Eigen::VectorXd& x) const {
+  std::vector<double> all(x.data(), x.data() + x.size());
+  all.resize(At(problem_.data().num_vars));
+  for (std::size_t k = 0; k < norm_variable_.size(); ++k) {
+    const auto& binding = program.norm_costs()[k];
+    const NormCost& cost = *binding.evaluator();
+    const Eigen::VectorXd values = program.ValuesOf(binding.variables(), x);
+    const auto t = At(norm_variable_[k]);
+    if (cost.norm() == NormCost::Norm::kL1) {
+      const Eigen::VectorXd z = (cost.A() * values + cost.b()).cwiseAbs();
+      std::copy(z.data(), z.data() + z.size(), all.begin() + static_cast<std::ptrdiff_t>(t));
+    } else {
+      all[t] = program.EvalBinding(binding, x)[0];
+    }
+  }
+  return all;
+}
+
+}  // namespace switchyard
