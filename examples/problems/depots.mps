@@ -1,6 +1,7 @@
 * A mixed-integer program: which depots to open, and which one serves each town.
 * OPEN_WEST is 1 where the depot WEST is opened, WEST_T1 where it serves the town T1.
 * Every town has one depot; a depot serves no more than it has room for.
+* The least cost is 453.
 NAME          DEPOTS
 ROWS
  N  COST

@@ -56,7 +56,8 @@ def transport():
     write_mps("transport", [
         "A linear program: ship goods from three plants to five markets at least cost.",
         "NORTH_ALDER is what goes from NORTH to ALDER; a unit costs the length of the way.",
-        "A plant sends no more than it makes, a market gets no less than it needs."], rows, columns)
+        "A plant sends no more than it makes, a market gets no less than it needs.",
+        "The least cost is 4110."], rows, columns)
 
 
 def depots():
@@ -72,7 +73,8 @@ def depots():
     write_mps("depots", [
         "A mixed-integer program: which depots to open, and which one serves each town.",
         "OPEN_WEST is 1 where the depot WEST is opened, WEST_T1 where it serves the town T1.",
-        "Every town has one depot; a depot serves no more than it has room for."],
+        "Every town has one depot; a depot serves no more than it has room for.",
+        "The least cost is 453."],
         rows, columns, [("UP", column, 1) for column, _, _ in columns])
 
 
@@ -81,6 +83,7 @@ def ball():
     rows = 4 * len(POINTS)
     lines = ["# A second-order cone program: the smallest ball around ten points of space.",
              "# Variables: the radius r, then the centre c. Cone i: (r, c - p_i), so |c - p_i| <= r.",
+             "# Three of the points hold it: the least radius is sqrt(26726 / 643).",
              "VER", "1", "", "OBJSENSE", "MIN", "", "VAR", "4 2", "L+ 1", "F 3", "",
              "CON", f"{rows} {len(POINTS)}"] + ["Q 4"] * len(POINTS)
     lines += ["", "OBJACOORD", "1", "0 1", "", "ACOORD", str(rows)]

@@ -1,6 +1,7 @@
 * A linear program: ship goods from three plants to five markets at least cost.
 * NORTH_ALDER is what goes from NORTH to ALDER; a unit costs the length of the way.
 * A plant sends no more than it makes, a market gets no less than it needs.
+* The least cost is 4110.
 NAME          TRANSPORT
 ROWS
  N  COST
