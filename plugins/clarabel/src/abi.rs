@@ -62,7 +62,7 @@ pub const SY_ABI_MAJOR: u16 = 1;
 pub const SY_ABI_MINOR: u16 = 0;
 
 macro_rules! record {
-    ($name:ident { $($field:ident: $type:ty,)* }) => {
+    ($name:ident { $($field:ident: $type:ty),* $(,)? }) => {
         #[repr(C)]
         #[derive(Clone, Copy)]
         pub struct $name {
