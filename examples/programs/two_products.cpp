@@ -8,12 +8,12 @@ int main() {
   switchyard::MathematicalProgram prog;
   const auto made = prog.NewContinuousVariables(2, "made");
 
-  prog.AddLinearCost(Eigen::Vector2d(-30, -20), made);  // a unit earns 30 or 20; costs are minimized
+  prog.AddLinearCost(Eigen::Vector2d(-30, -20), made);              // a unit earns 30 or 20
   prog.AddLinearConstraint(Eigen::RowVector2d(2, 1), 0, 40, made);  // hours
   prog.AddLinearConstraint(Eigen::RowVector2d(1, 2), 0, 50, made);  // kilograms
   prog.AddBoundingBoxConstraint(0, 100, made);
 
-  const auto result = switchyard::Solve(prog);  // by the best backend that is there
+  const auto result = switchyard::Solve(prog);  // the least cost, by the best backend that is there
   if (!result.is_success()) {
     std::cerr << "no plan was found\n";
     return 1;
