@@ -18,12 +18,14 @@ class Binding {
   Binding(std::shared_ptr<C> evaluator, const VariableList& variables)
       : evaluator_(std::move(evaluator)), variables_(variables.vector()) {
     Require(evaluator_ != nullptr, "a binding needs an evaluator, got a null pointer");
-    Require(evaluator_->num_vars() == variables_.size(), evaluator_->Name(), " takes ",
-            evaluator_->num_vars(), " variables, got ", variables_.size());
+    if (evaluator_->num_vars() != variables_.size()) {  // Name() is made only where it is said
+      Refuse(evaluator_->Name(), " takes ", evaluator_->num_vars(), " variables, got ",
+             variables_.size());
+    }
   }
   template <class U>
-    requires std::is_convertible_v<std::shared_ptr<U>, std::shared_ptr<C>>
-  Binding(const Binding<U>& other)  // NOLINT(google-explicit-constructor): to its base
+  requires std::is_convertible_v<std::shared_ptr<U>, std::shared_ptr<C>> Binding(
+      const Binding<U>& other)  // NOLINT(google-explicit-constructor): to its base
       : evaluator_(other.evaluator()), variables_(other.variables()) {}
 
   [[nodiscard]] const std::shared_ptr<C>& evaluator() const { return evaluator_; }

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "switchyard/abi.h"
@@ -11,9 +12,10 @@
 
 namespace switchyard {
 
-class Constraint : public EvaluatorBase {
+class SWITCHYARD_EXPORT Constraint : public EvaluatorBase {
  public:
   [[nodiscard]] int num_constraints() const { return num_outputs(); }
+  /// Of each row; infinite for the rows of a cone.
   [[nodiscard]] const Eigen::VectorXd& lower_bound() const { return lower_; }
   [[nodiscard]] const Eigen::VectorXd& upper_bound() const { return upper_; }
 
@@ -22,7 +24,7 @@ class Constraint : public EvaluatorBase {
     return Violation(x) <= tolerance;
   }
   /// How far x is from satisfying it, absolute, in the unit of the rows (of a cone: as
-  /// cones.hpp measures); 0 where it does.
+  /// cones.hpp measures); 0 where it does, NaN where a row is NaN.
   [[nodiscard]] double Violation(const VectorRef& x) const;
 
   /// Names of the rows, as a file gives them; empty: none.
@@ -33,7 +35,9 @@ class Constraint : public EvaluatorBase {
 
  protected:
   Constraint(int num_vars, int num_constraints) : EvaluatorBase(num_vars, num_constraints) {}
-  void SetBounds(const VectorRef& lower, const VectorRef& upper);
+  /// Checks and stores. `name` is what a message calls the constraint: a constructor cannot ask the
+  /// class that derives from it.
+  void SetBounds(std::string_view name, const VectorRef& lower, const VectorRef& upper);
   [[nodiscard]] virtual double ViolationOf(const Eigen::VectorXd& y) const = 0;
 
  private:
@@ -43,44 +47,61 @@ class Constraint : public EvaluatorBase {
 };
 
 /// lower <= Ax <= upper, row by row; infinite sides are free.
-class LinearConstraint : public Constraint {
+class SWITCHYARD_EXPORT LinearConstraint : public Constraint {
  public:
   /// A is num_constraints x num_vars. Throws where dimensions differ, a number is NaN, a
   /// coefficient is infinite, lower > upper, lower = inf or upper = -inf.
   LinearConstraint(CoefficientMatrix A, const VectorRef& lower, const VectorRef& upper);
   [[nodiscard]] const SparseMatrix& get_sparse_A() const { return A_; }
   [[nodiscard]] Eigen::MatrixXd GetDenseA() const { return A_; }
+  /// Of the same dimensions. Also refuses what the derived class cannot be: a box with another A
+  /// than the identity, an equality with two sides that differ.
   void UpdateCoefficients(CoefficientMatrix A, const VectorRef& lower, const VectorRef& upper);
   [[nodiscard]] std::string Kind() const override { return "linear constraint"; }
 
+ protected:
+  LinearConstraint(std::string_view kind, CoefficientMatrix A, const VectorRef& lower,
+                   const VectorRef& upper);
+
  private:
+  virtual void CheckForm(const SparseMatrix&, const VectorRef&, const VectorRef&) const {}
+  void CheckAndStore(std::string_view name, CoefficientMatrix A, const VectorRef& lower,
+                     const VectorRef& upper);
   [[nodiscard]] Eigen::VectorXd DoEval(const VectorRef& x) const final { return A_ * x; }
   [[nodiscard]] double ViolationOf(const Eigen::VectorXd& y) const final;
   SparseMatrix A_;
 };
 
 /// Ax = b.
-class LinearEqualityConstraint final : public LinearConstraint {
+class SWITCHYARD_EXPORT LinearEqualityConstraint final : public LinearConstraint {
  public:
   LinearEqualityConstraint(CoefficientMatrix A, const VectorRef& b)
-      : LinearConstraint(std::move(A), b, b) {}
+      : LinearConstraint("linear equality constraint", std::move(A), b, b) {}
   void UpdateCoefficients(CoefficientMatrix A, const VectorRef& b) {
     LinearConstraint::UpdateCoefficients(std::move(A), b, b);
   }
   [[nodiscard]] std::string Kind() const override { return "linear equality constraint"; }
+
+ private:
+  void CheckForm(const SparseMatrix& A, const VectorRef& lower,
+                 const VectorRef& upper) const override;
 };
 
 /// lower <= x <= upper.
-class BoundingBoxConstraint final : public LinearConstraint {
+class SWITCHYARD_EXPORT BoundingBoxConstraint final : public LinearConstraint {
  public:
   BoundingBoxConstraint(const VectorRef& lower, const VectorRef& upper);
   void UpdateBounds(const VectorRef& lower, const VectorRef& upper);
   [[nodiscard]] std::string Kind() const override { return "bounding box constraint"; }
+
+ private:
+  void CheckForm(const SparseMatrix& A, const VectorRef& lower,
+                 const VectorRef& upper) const override;
 };
 
 /// z = Ax + b in a cone, in the coordinates that users know; each derived class says which.
 /// `frame()` takes z to the cone of the ABI: s[i] = frame()[i].scale * z[frame()[i].row].
-class ConeConstraint : public Constraint {
+class SWITCHYARD_EXPORT ConeConstraint : public Constraint {
  public:
   struct FrameRow {
     int row;
@@ -94,16 +115,17 @@ class ConeConstraint : public Constraint {
   /// The dual in z's coordinates from the dual in the ABI's: <y, z> = <y_abi, s>. Of a matrix cone
   /// it is the symmetric matrix itself, column by column.
   [[nodiscard]] Eigen::VectorXd DualInUserFrame(const VectorRef& abi_dual) const;
+  /// Of the same dimensions.
   void UpdateCoefficients(CoefficientMatrix A, const VectorRef& b);
 
  protected:
-  ConeConstraint(CoefficientMatrix A, const VectorRef& b, sy_cone cone,
+  ConeConstraint(std::string_view kind, CoefficientMatrix&& A, const VectorRef& b, sy_cone cone,
                  std::vector<FrameRow> frame);
 
  private:
   [[nodiscard]] Eigen::VectorXd DoEval(const VectorRef& x) const final { return A_ * x + b_; }
   [[nodiscard]] double ViolationOf(const Eigen::VectorXd& y) const final;
-  void CheckAndStore(CoefficientMatrix A, const VectorRef& b);
+  void CheckAndStore(std::string_view name, CoefficientMatrix A, const VectorRef& b);
   SparseMatrix A_;
   Eigen::VectorXd b_;
   sy_cone cone_;
@@ -111,28 +133,28 @@ class ConeConstraint : public Constraint {
 };
 
 /// z_0 >= |z_1..m|_2.
-class LorentzConeConstraint final : public ConeConstraint {
+class SWITCHYARD_EXPORT LorentzConeConstraint final : public ConeConstraint {
  public:
   LorentzConeConstraint(CoefficientMatrix A, const VectorRef& b);
   [[nodiscard]] std::string Kind() const override { return "Lorentz cone constraint"; }
 };
 
 /// z_0 z_1 >= z_2^2 + ... + z_m^2, z_0 >= 0, z_1 >= 0.
-class RotatedLorentzConeConstraint final : public ConeConstraint {
+class SWITCHYARD_EXPORT RotatedLorentzConeConstraint final : public ConeConstraint {
  public:
   RotatedLorentzConeConstraint(CoefficientMatrix A, const VectorRef& b);
   [[nodiscard]] std::string Kind() const override { return "rotated Lorentz cone constraint"; }
 };
 
 /// z_0 >= z_1 exp(z_2 / z_1), z_1 > 0, and its closure.
-class ExponentialConeConstraint final : public ConeConstraint {
+class SWITCHYARD_EXPORT ExponentialConeConstraint final : public ConeConstraint {
  public:
   ExponentialConeConstraint(CoefficientMatrix A, const VectorRef& b);
   [[nodiscard]] std::string Kind() const override { return "exponential cone constraint"; }
 };
 
 /// z_0^alpha z_1^(1 - alpha) >= |z_2|, z_0 >= 0, z_1 >= 0, 0 < alpha < 1.
-class PowerConeConstraint final : public ConeConstraint {
+class SWITCHYARD_EXPORT PowerConeConstraint final : public ConeConstraint {
  public:
   PowerConeConstraint(CoefficientMatrix A, const VectorRef& b, double alpha);
   [[nodiscard]] std::string Kind() const override { return "power cone constraint"; }
@@ -140,7 +162,7 @@ class PowerConeConstraint final : public ConeConstraint {
 
 /// A symmetric matrix of variables is positive semidefinite; the variables are its entries column
 /// by column (rows^2 of them), of which the upper triangle is read.
-class PositiveSemidefiniteConstraint final : public ConeConstraint {
+class SWITCHYARD_EXPORT PositiveSemidefiniteConstraint final : public ConeConstraint {
  public:
   explicit PositiveSemidefiniteConstraint(int rows);
   [[nodiscard]] int matrix_rows() const { return rows_; }
@@ -151,7 +173,7 @@ class PositiveSemidefiniteConstraint final : public ConeConstraint {
 };
 
 /// F_0 + x_1 F_1 + ... + x_n F_n is positive semidefinite; all F_i symmetric of one size.
-class LinearMatrixInequalityConstraint final : public ConeConstraint {
+class SWITCHYARD_EXPORT LinearMatrixInequalityConstraint final : public ConeConstraint {
  public:
   /// `tolerance`: how far an F_i may be from symmetric, relative to its largest entry.
   explicit LinearMatrixInequalityConstraint(const std::vector<Eigen::MatrixXd>& F,

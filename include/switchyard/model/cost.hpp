@@ -7,13 +7,13 @@
 
 namespace switchyard {
 
-class Cost : public EvaluatorBase {
+class SWITCHYARD_EXPORT Cost : public EvaluatorBase {
  protected:
   explicit Cost(int num_vars) : EvaluatorBase(num_vars, 1) {}
 };
 
 /// a'x + b.
-class LinearCost final : public Cost {
+class SWITCHYARD_EXPORT LinearCost final : public Cost {
  public:
   explicit LinearCost(const VectorRef& a, double b = 0);
   [[nodiscard]] const Eigen::VectorXd& a() const { return a_; }
@@ -28,10 +28,11 @@ class LinearCost final : public Cost {
 };
 
 /// 1/2 x'Qx + b'x + c. Q is stored symmetric: (Q + Q')/2 of what was given.
-class QuadraticCost final : public Cost {
+class SWITCHYARD_EXPORT QuadraticCost final : public Cost {
  public:
-  /// `is_convex` where the caller knows; else found by an LDL' factorization of Q, which calls Q
-  /// positive semidefinite where no pivot is below -1e-12 times its largest entry.
+  /// `is_convex` where the caller knows; else found by a factorization: each connected component of
+  /// Q's pattern counts as positive semidefinite where no pivot is below -1e-12 times its largest
+  /// entry.
   QuadraticCost(const CoefficientMatrix& Q, const VectorRef& b, double c = 0,
                 std::optional<bool> is_convex = std::nullopt);
   [[nodiscard]] const SparseMatrix& Q() const { return Q_; }
@@ -51,7 +52,7 @@ class QuadraticCost final : public Cost {
 };
 
 /// A convex function of z = Ax + b that lowering writes with a cone: see NormCost::Norm.
-class NormCost : public Cost {
+class SWITCHYARD_EXPORT NormCost : public Cost {
  public:
   enum class Norm {
     kL1,                    // |z|_1
@@ -62,6 +63,7 @@ class NormCost : public Cost {
   [[nodiscard]] Norm norm() const { return norm_; }
   [[nodiscard]] const SparseMatrix& A() const { return A_; }
   [[nodiscard]] const Eigen::VectorXd& b() const { return b_; }
+  /// Of the same dimensions.
   void UpdateCoefficients(const CoefficientMatrix& A, const VectorRef& b);
   [[nodiscard]] std::string Kind() const override;
 
@@ -70,28 +72,30 @@ class NormCost : public Cost {
 
  private:
   [[nodiscard]] Eigen::VectorXd DoEval(const VectorRef& x) const override;
+  void CheckAndStore(const CoefficientMatrix& A, const VectorRef& b, Eigen::Index rows);
   Norm norm_;
   SparseMatrix A_;
   Eigen::VectorXd b_;
 };
 
 /// |Ax + b|_1.
-class L1NormCost final : public NormCost {
+class SWITCHYARD_EXPORT L1NormCost final : public NormCost {
  public:
   L1NormCost(const CoefficientMatrix& A, const VectorRef& b) : NormCost(Norm::kL1, A, b) {}
 };
 /// |Ax + b|_2.
-class L2NormCost final : public NormCost {
+class SWITCHYARD_EXPORT L2NormCost final : public NormCost {
  public:
   L2NormCost(const CoefficientMatrix& A, const VectorRef& b) : NormCost(Norm::kL2, A, b) {}
 };
 /// max_i |(Ax + b)_i|.
-class LInfNormCost final : public NormCost {
+class SWITCHYARD_EXPORT LInfNormCost final : public NormCost {
  public:
   LInfNormCost(const CoefficientMatrix& A, const VectorRef& b) : NormCost(Norm::kLInf, A, b) {}
 };
-/// (z_1^2 + ... + z_m^2) / z_0 for z = Ax + b with z_0 >= 0.
-class PerspectiveQuadraticCost final : public NormCost {
+/// (z_1^2 + ... + z_m^2) / z_0 for z = Ax + b with z_0 > 0; at z_0 = 0 its closure: 0 where all z
+/// are 0, else infinity, as for z_0 < 0.
+class SWITCHYARD_EXPORT PerspectiveQuadraticCost final : public NormCost {
  public:
   PerspectiveQuadraticCost(const CoefficientMatrix& A, const VectorRef& b)
       : NormCost(Norm::kPerspectiveQuadratic, A, b) {}

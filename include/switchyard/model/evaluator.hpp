@@ -7,24 +7,44 @@
 #include <utility>
 
 #include "switchyard/error.hpp"
+#include "switchyard/export.hpp"
 
 namespace switchyard {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
 using VectorRef = Eigen::Ref<const Eigen::VectorXd>;
 
-/// The argument "a matrix of coefficients", dense or sparse; stored sparse, exact zeros left out.
+/// The argument "a matrix of coefficients", dense or sparse; stored sparse. Exact
+/// zeros are left out of a dense one; a sparse one keeps its pattern, so that it can be kept while
+/// numbers change.
 class CoefficientMatrix {
  public:
   // NOLINTBEGIN(google-explicit-constructor): an argument type, made to convert
   template <class Derived>
   CoefficientMatrix(const Eigen::MatrixBase<Derived>& dense)
       : sparse_(dense.template cast<double>().sparseView(1.0, 0.0)) {}
-  CoefficientMatrix(SparseMatrix sparse) : sparse_(std::move(sparse)) { sparse_.makeCompressed(); }
+  CoefficientMatrix(const SparseMatrix& sparse) : sparse_(sparse) { sparse_.makeCompressed(); }
+  CoefficientMatrix(SparseMatrix&& sparse) {
+    sparse_.swap(sparse);
+    sparse_.makeCompressed();
+  }
+  template <class Derived>
+  CoefficientMatrix(const Eigen::SparseMatrixBase<Derived>& sparse) : sparse_(sparse) {
+    sparse_.makeCompressed();
+  }
   // NOLINTEND(google-explicit-constructor)
 
+  // Moved by swapping: an Eigen::SparseMatrix of version 3.4 has no move of its own.
+  CoefficientMatrix(const CoefficientMatrix&) = default;
+  CoefficientMatrix(CoefficientMatrix&& other) { sparse_.swap(other.sparse_); }
+  CoefficientMatrix& operator=(CoefficientMatrix other) {
+    sparse_.swap(other.sparse_);
+    return *this;
+  }
+
   [[nodiscard]] const SparseMatrix& sparse() const { return sparse_; }
-  SparseMatrix take() && { return std::move(sparse_); }
+  /// Moves the matrix into `target`.
+  void MoveInto(SparseMatrix* target) && { target->swap(sparse_); }
 
  private:
   SparseMatrix sparse_;
@@ -32,7 +52,7 @@ class CoefficientMatrix {
 
 /// A function R^num_vars -> R^num_outputs. Evaluation is const and may happen from several threads
 /// at once; the Update... members are for one thread while no other reads.
-class EvaluatorBase {
+class SWITCHYARD_EXPORT EvaluatorBase {
  public:
   EvaluatorBase(const EvaluatorBase&) = delete;
   EvaluatorBase& operator=(const EvaluatorBase&) = delete;
@@ -43,8 +63,9 @@ class EvaluatorBase {
 
   /// y = f(x). Throws InvalidArgument where x has another size than num_vars().
   void Eval(VectorRef x, Eigen::VectorXd* y) const {
-    Require(x.size() == num_vars_, "Eval of ", Name(), ": x needs ", num_vars_, " entries, got ",
-            x.size());
+    if (x.size() != num_vars_) {  // Name() is made only where it is said
+      Refuse("Eval of ", Name(), ": x needs ", num_vars_, " entries, got ", x.size());
+    }
     *y = DoEval(x);
   }
 

@@ -5,11 +5,13 @@
 #include <string_view>
 #include <vector>
 
+#include "switchyard/export.hpp"
+
 namespace switchyard {
 
 /// Names in blocks: a base and a shape ("X(1,2)"), or one for each as a file gives them. A block of
 /// a million variables is one entry.
-class NameTable {
+class SWITCHYARD_EXPORT NameTable {
  public:
   /// rows x cols names "base(i,j)", column by column; "base(i)" where cols is 0, "base" for 1 x 0.
   void AddShaped(std::string base, int rows, int cols);

@@ -1,7 +1,8 @@
-// switchyard/model/program.hpp - an optimization program: variables, and costs and constraints bound
-// to them. It knows no solver.
+// switchyard/model/program.hpp - an optimization program: variables, and costs and constraints
+// bound to them. It knows no solver.
 #pragma once
 
+#include <concepts>
 #include <map>
 #include <memory>
 #include <optional>
@@ -9,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "switchyard/export.hpp"
 #include "switchyard/model/binding.hpp"
 #include "switchyard/model/constraint.hpp"
 #include "switchyard/model/cost.hpp"
@@ -24,10 +26,9 @@ enum class ObjectiveSense { kMinimize, kMaximize };
 /// Variables are added in blocks; evaluators are shared, never copied, by bindings. Adding throws
 /// InvalidArgument for a variable of another program, a size that does not fit, a number that is
 /// NaN, and leaves the program as it was. Not thread-safe while it changes; const use is.
-class MathematicalProgram {
+class SWITCHYARD_EXPORT MathematicalProgram {
  public:
   MathematicalProgram() = default;
-  MathematicalProgram(const MathematicalProgram&) = delete;
   MathematicalProgram& operator=(const MathematicalProgram&) = delete;
 
   /// Another program with the same variables (ids included); evaluators are shared.
@@ -47,18 +48,27 @@ class MathematicalProgram {
   MatrixXDecisionVariable NewBinaryVariables(int rows, int cols, const std::string& name = "B");
   template <int Rows, int Cols = 1>
   MatrixDecisionVariable<Rows, Cols> NewContinuousVariables(const std::string& name = "X") {
-    return NewContinuousVariables(Rows, Cols, name);
+    if constexpr (Cols == 1) {
+      return NewContinuousVariables(Rows, name);
+    } else {
+      return NewContinuousVariables(Rows, Cols, name);
+    }
   }
   template <int Rows, int Cols = 1>
   MatrixDecisionVariable<Rows, Cols> NewBinaryVariables(const std::string& name = "b") {
-    return NewBinaryVariables(Rows, Cols, name);
+    if constexpr (Cols == 1) {
+      return NewBinaryVariables(Rows, name);
+    } else {
+      return NewBinaryVariables(Rows, Cols, name);
+    }
   }
   /// rows x rows with X(i, j) and X(j, i) one variable: rows (rows + 1) / 2 new ones.
   MatrixXDecisionVariable NewSymmetricContinuousVariables(int rows, const std::string& name = "X");
   /// One variable for each name and type: what file readers use.
   VectorXDecisionVariable NewVariables(std::vector<std::string> names,
                                        const std::vector<VariableType>& types);
-  /// Variables of another program, under their ids and with generic names.
+  /// Variables of another program, under their ids, with generic names and continuous; those that
+  /// are here already stay as they are.
   void AddDecisionVariables(const VariableList& variables);
 
   [[nodiscard]] int num_vars() const { return static_cast<int>(types_.size()); }
@@ -102,11 +112,15 @@ class MathematicalProgram {
   /// Stores a binding by the type of its evaluator, whatever type the binding names.
   Binding<Cost> AddCost(const Binding<Cost>& binding);
   template <class C>
-    requires std::derived_from<C, Cost>
-  Binding<C> AddCost(const std::shared_ptr<C>& cost, const VariableList& vars) {
-    Binding<C> binding(cost, vars);
+  requires(std::derived_from<C, Cost> &&
+           !std::same_as<C, Cost>) Binding<C> AddCost(const Binding<C>& binding) {
     AddCost(Binding<Cost>(binding));
     return binding;
+  }
+  template <class C>
+  requires std::derived_from<C, Cost> Binding<C> AddCost(const std::shared_ptr<C>& cost,
+                                                         const VariableList& vars) {
+    return AddCost(Binding<C>(cost, vars));
   }
 
   // ---- Constraints ----
@@ -149,11 +163,15 @@ class MathematicalProgram {
   /// Stores a binding by the type of its evaluator, whatever type the binding names.
   Binding<Constraint> AddConstraint(const Binding<Constraint>& binding);
   template <class C>
-    requires std::derived_from<C, Constraint>
-  Binding<C> AddConstraint(const std::shared_ptr<C>& constraint, const VariableList& vars) {
-    Binding<C> binding(constraint, vars);
+  requires(std::derived_from<C, Constraint> &&
+           !std::same_as<C, Constraint>) Binding<C> AddConstraint(const Binding<C>& binding) {
     AddConstraint(Binding<Constraint>(binding));
     return binding;
+  }
+  template <class C>
+  requires std::derived_from<C, Constraint> Binding<C> AddConstraint(
+      const std::shared_ptr<C>& constraint, const VariableList& vars) {
+    return AddConstraint(Binding<C>(constraint, vars));
   }
 
   /// How many bindings equal to the given one were removed.
@@ -205,7 +223,7 @@ class MathematicalProgram {
   [[nodiscard]] Eigen::VectorXd ValuesOf(const VectorXDecisionVariable& variables,
                                          const VectorRef& x) const;
 
-  // ---- Initial guess: NaN where unset ----
+  // ---- Initial guess: NaN where unset, and NaN unsets ----
 
   void SetInitialGuess(Variable variable, double value);
   void SetInitialGuess(const VariableList& variables, const VectorRef& values);
@@ -215,20 +233,23 @@ class MathematicalProgram {
   [[nodiscard]] Eigen::VectorXd initial_guess() const;
 
  private:
+  MathematicalProgram(const MathematicalProgram&) = default;  // Clone's
+
   struct Block {  // consecutive ids under consecutive indices
     Variable::Id first_id;
     int first_index;
     int count;
   };
-  int AddBlock(int count, VariableType type);
-  MatrixXDecisionVariable NewMatrix(int rows, int cols, VariableType type,
-                                    const std::string& name);
+  VectorXDecisionVariable AddBlock(std::int64_t count, VariableType type);
+  VectorXDecisionVariable NewVector(int rows, VariableType type, const std::string& name);
+  MatrixXDecisionVariable NewMatrix(int rows, int cols, VariableType type, const std::string& name);
   [[nodiscard]] int FindIndex(Variable variable) const;  // -1: not of this program
   void CheckVariables(const EvaluatorBase& evaluator, const VectorXDecisionVariable& vars) const;
 
   std::string name_;
   ObjectiveSense sense_ = ObjectiveSense::kMinimize;
-  std::vector<Block> blocks_;  // by first_id
+  std::vector<Block> blocks_;        // by first_id
+  std::vector<Variable> variables_;  // by index, as types_
   std::vector<VariableType> types_;
   NameTable names_;
   std::map<int, double> guess_;  // of those that have one

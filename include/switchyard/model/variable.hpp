@@ -3,9 +3,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <compare>
 #include <cstdint>
 #include <functional>
+#include <initializer_list>
 #include <list>
+#include <type_traits>
 #include <vector>
 
 namespace switchyard {
@@ -43,6 +46,7 @@ using VariableRefList = std::list<Eigen::Ref<const VectorXDecisionVariable>>;
 class VariableList {
  public:
   // NOLINTBEGIN(google-explicit-constructor): an argument type, made to convert
+  VariableList() = default;
   VariableList(Variable one) : all_(1) { all_(0) = one; }
   template <class Derived>
   VariableList(const Eigen::MatrixBase<Derived>& some) : all_(some.size()) {
@@ -53,6 +57,9 @@ class VariableList {
   }
   VariableList(const VariableRefList& parts) { Join(parts); }
   VariableList(std::initializer_list<VectorXDecisionVariable> parts) { Join(parts); }
+  VariableList(std::initializer_list<Variable> some)
+      : all_(Eigen::Map<const VectorXDecisionVariable>(some.begin(),
+                                                       static_cast<Eigen::Index>(some.size()))) {}
   // NOLINTEND(google-explicit-constructor)
 
   [[nodiscard]] const VectorXDecisionVariable& vector() const { return all_; }

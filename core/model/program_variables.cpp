@@ -1,0 +1,228 @@
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <unordered_set>
+#include <utility>
+
+#include "switchyard/model/program.hpp"
+
+namespace switchyard {
+namespace {
+
+// The next id of the process; 0 is the dummy's.
+std::atomic<Variable::Id> next_id{1};
+
+// Throws InvalidArgument where a size is negative.
+void CheckDimension(const char* what, int size) {
+  Require(size >= 0, "new variables: ", what, " needs to be 0 or more, got ", size);
+}
+
+std::size_t At(int i) { return static_cast<std::size_t>(i); }
+
+}  // namespace
+
+std::unique_ptr<MathematicalProgram> MathematicalProgram::Clone() const {
+  return std::unique_ptr<MathematicalProgram>(new MathematicalProgram(*this));
+}
+
+VectorXDecisionVariable MathematicalProgram::AddBlock(std::int64_t count, VariableType type) {
+  constexpr std::int64_t kMost = std::numeric_limits<int>::max();
+  Require(count <= kMost - num_vars(), "new variables: a program holds at most ", kMost,
+          ", this one has ", num_vars(), " and got ", count);
+  VectorXDecisionVariable added(count);
+  if (count == 0) return added;
+  const Variable::Id first = next_id.fetch_add(count);
+  if (!blocks_.empty() && blocks_.back().first_id + blocks_.back().count == first &&
+      blocks_.back().first_index + blocks_.back().count == num_vars()) {
+    blocks_.back().count += static_cast<int>(count);
+  } else {  // ids only grow: the new block is the last by first_id too
+    blocks_.push_back({first, num_vars(), static_cast<int>(count)});
+  }
+  for (std::int64_t k = 0; k < count; ++k) added[k] = Variable(first + k);
+  variables_.insert(variables_.end(), added.begin(), added.end());
+  types_.insert(types_.end(), static_cast<std::size_t>(count), type);
+  return added;
+}
+
+VectorXDecisionVariable MathematicalProgram::NewVector(int rows, VariableType type,
+                                                       const std::string& name) {
+  CheckDimension("rows", rows);
+  VectorXDecisionVariable added = AddBlock(rows, type);
+  names_.AddShaped(name, rows, 0);
+  return added;
+}
+
+MatrixXDecisionVariable MathematicalProgram::NewMatrix(int rows, int cols, VariableType type,
+                                                       const std::string& name) {
+  CheckDimension("rows", rows);
+  CheckDimension("cols", cols);
+  const VectorXDecisionVariable added = AddBlock(std::int64_t{rows} * cols, type);
+  if (added.size() > 0) names_.AddShaped(name, rows, cols);
+  return added.reshaped(rows, cols);
+}
+
+VectorXDecisionVariable MathematicalProgram::NewContinuousVariables(int rows,
+                                                                    const std::string& name) {
+  return NewVector(rows, VariableType::kContinuous, name);
+}
+
+VectorXDecisionVariable MathematicalProgram::NewBinaryVariables(int rows, const std::string& name) {
+  return NewVector(rows, VariableType::kBinary, name);
+}
+
+VectorXDecisionVariable MathematicalProgram::NewIntegerVariables(int rows,
+                                                                 const std::string& name) {
+  return NewVector(rows, VariableType::kInteger, name);
+}
+
+MatrixXDecisionVariable MathematicalProgram::NewContinuousVariables(int rows, int cols,
+                                                                    const std::string& name) {
+  return NewMatrix(rows, cols, VariableType::kContinuous, name);
+}
+
+MatrixXDecisionVariable MathematicalProgram::NewBinaryVariables(int rows, int cols,
+                                                                const std::string& name) {
+  return NewMatrix(rows, cols, VariableType::kBinary, name);
+}
+
+MatrixXDecisionVariable MathematicalProgram::NewSymmetricContinuousVariables(
+    int rows, const std::string& name) {
+  CheckDimension("rows", rows);
+  const VectorXDecisionVariable added =
+      AddBlock(std::int64_t{rows} * (std::int64_t{rows} + 1) / 2, VariableType::kContinuous);
+  names_.AddSymmetric(name, rows);
+  MatrixXDecisionVariable X(rows, rows);
+  for (Eigen::Index j = 0, k = 0; j < rows; ++j) {
+    for (Eigen::Index i = j; i < rows; ++i) X(i, j) = X(j, i) = added[k++];
+  }
+  return X;
+}
+
+VectorXDecisionVariable MathematicalProgram::NewVariables(std::vector<std::string> names,
+                                                          const std::vector<VariableType>& types) {
+  Require(names.size() == types.size(), "new variables: one type for each name, got ", names.size(),
+          " names and ", types.size(), " types");
+  const int first = num_vars();
+  VectorXDecisionVariable added =
+      AddBlock(static_cast<std::int64_t>(names.size()), VariableType::kContinuous);
+  std::copy(types.begin(), types.end(), types_.begin() + first);
+  names_.AddListed(std::move(names));
+  return added;
+}
+
+void MathematicalProgram::AddDecisionVariables(const VariableList& variables) {
+  std::vector<Variable> added;
+  std::vector<std::string> names;
+  std::unordered_set<Variable> seen;
+  for (Eigen::Index i = 0; i < variables.vector().size(); ++i) {
+    const Variable v = variables.vector()[i];
+    Require(!v.is_dummy(), "AddDecisionVariables: variable ", i, " of ", variables.vector().size(),
+            " is a dummy, it belongs to no program");
+    if (Contains(v) || !seen.insert(v).second) continue;
+    added.push_back(v);
+    names.push_back(Text("v", v.get_id()));
+  }
+  Require(added.size() <= At(std::numeric_limits<int>::max() - num_vars()),
+          "AddDecisionVariables: too many variables, got ", added.size());
+  for (std::size_t k = 0; k < added.size(); ++k) {
+    const int index = num_vars() + static_cast<int>(k);
+    const bool continues = k > 0 && added[k].get_id() == added[k - 1].get_id() + 1;
+    if (continues) {
+      ++blocks_.back().count;
+    } else {
+      blocks_.push_back({added[k].get_id(), index, 1});
+    }
+  }
+  std::sort(blocks_.begin(), blocks_.end(),
+            [](const Block& a, const Block& b) { return a.first_id < b.first_id; });
+  variables_.insert(variables_.end(), added.begin(), added.end());
+  types_.insert(types_.end(), added.size(), VariableType::kContinuous);
+  names_.AddListed(std::move(names));
+}
+
+Variable MathematicalProgram::decision_variable(int i) const {
+  Require(i >= 0 && i < num_vars(), "decision variable ", i, ": there are ", num_vars());
+  return variables_[At(i)];
+}
+
+VectorXDecisionVariable MathematicalProgram::decision_variables() const {
+  return Eigen::Map<const VectorXDecisionVariable>(variables_.data(), num_vars());
+}
+
+bool MathematicalProgram::has_integers() const {
+  return std::any_of(types_.begin(), types_.end(),
+                     [](VariableType t) { return t != VariableType::kContinuous; });
+}
+
+int MathematicalProgram::FindIndex(Variable variable) const {
+  const Variable::Id id = variable.get_id();
+  const auto behind =
+      std::upper_bound(blocks_.begin(), blocks_.end(), id,
+                       [](Variable::Id at, const Block& b) { return at < b.first_id; });
+  if (behind == blocks_.begin()) return -1;
+  const Block& block = *std::prev(behind);
+  const Variable::Id offset = id - block.first_id;
+  return offset < block.count ? block.first_index + static_cast<int>(offset) : -1;
+}
+
+int MathematicalProgram::FindDecisionVariableIndex(Variable variable) const {
+  const int index = FindIndex(variable);
+  if (index < 0) [[unlikely]] {
+    Require(!variable.is_dummy(), "a dummy variable belongs to no program");
+    Refuse("the variable with id ", variable.get_id(), " is not of this program");
+  }
+  return index;
+}
+
+std::vector<int> MathematicalProgram::FindDecisionVariableIndices(
+    const VariableList& variables) const {
+  std::vector<int> indices;
+  indices.reserve(static_cast<std::size_t>(variables.vector().size()));
+  for (const Variable v : variables.vector()) indices.push_back(FindDecisionVariableIndex(v));
+  return indices;
+}
+
+void MathematicalProgram::SetInitialGuess(Variable variable, double value) {
+  SetInitialGuess(VariableList(variable), Eigen::VectorXd::Constant(1, value));
+}
+
+void MathematicalProgram::SetInitialGuess(const VariableList& variables, const VectorRef& values) {
+  const std::vector<int> indices = FindDecisionVariableIndices(variables);
+  Require(values.size() == variables.vector().size(), "initial guess: ", indices.size(),
+          " variables need as many values, got ", values.size());
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    Require(!std::isinf(values[i]), "initial guess: value ", i,
+            " needs to be finite, or NaN for none, got ", values[i]);
+  }
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    const int index = indices[static_cast<std::size_t>(i)];
+    if (std::isnan(values[i])) {
+      guess_.erase(index);
+    } else {
+      guess_[index] = values[i];
+    }
+  }
+}
+
+void MathematicalProgram::SetInitialGuessForAllVariables(const VectorRef& values) {
+  SetInitialGuess(decision_variables(), values);
+}
+
+double MathematicalProgram::GetInitialGuess(Variable variable) const {
+  const auto at = guess_.find(FindDecisionVariableIndex(variable));
+  return at == guess_.end() ? std::numeric_limits<double>::quiet_NaN() : at->second;
+}
+
+Eigen::VectorXd MathematicalProgram::GetInitialGuess(const VariableList& variables) const {
+  return variables.vector().unaryExpr([this](Variable v) { return GetInitialGuess(v); });
+}
+
+Eigen::VectorXd MathematicalProgram::initial_guess() const {
+  Eigen::VectorXd guess =
+      Eigen::VectorXd::Constant(num_vars(), std::numeric_limits<double>::quiet_NaN());
+  for (const auto& [index, value] : guess_) guess[index] = value;
+  return guess;
+}
+
+}  // namespace switchyard
