@@ -1,5 +1,6 @@
 #include "core/lower/bridge.hpp"
 
+#include <algorithm>
 #include <cstring>
 #include <deque>
 #include <map>
@@ -60,6 +61,11 @@ std::string DescribeFeatures(Features features) {
   return text;
 }
 
+bool AnyOff(const ProblemData& problem) {
+  return std::any_of(problem.cone_on.begin(), problem.cone_on.end(),
+                     [](std::uint8_t on) { return on == 0; });
+}
+
 const std::vector<BridgeKind>& BridgeKinds() {
   static const std::vector<BridgeKind> kinds = {
       BoundsToRows(),         RowsToCones(),          LinearConesToRows(),
@@ -92,13 +98,17 @@ Planned PlanBridges(Features features, Features abilities) {
   return {false, {}, best_missing};
 }
 
-BridgeChain::BridgeChain(const sy_problem& problem, const BridgePlan& plan) {
-  const sy_problem* now = &problem;
+BridgeChain::BridgeChain(const Problem& problem, const BridgePlan& plan) {
+  const sy_problem* now = &problem.view();
+  if (AnyOff(problem.data())) {
+    bridges_.push_back(LeaveOutSwitchedOff(problem.data()));
+    now = &bridges_.back()->image().view();
+  }
   for (const BridgeKind* kind : plan) {
     bridges_.push_back(kind->apply(*now));
     now = &bridges_.back()->image().view();
   }
-  if (!bridges_.empty() && problem.hints != nullptr) MapHints(problem);
+  if (!bridges_.empty() && problem.view().hints != nullptr) MapHints(problem.view());
 }
 
 // Groups of variables pass as they are, since variables keep their places; what has an entry for

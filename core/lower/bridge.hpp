@@ -26,6 +26,9 @@ Features AbilitiesOf(const sy_solver& solver, bool with_integers);
 /// "variable bounds", "power cones", ... for messages.
 std::string DescribeFeatures(Features features);
 
+/// Is a cone switched off?
+bool AnyOff(const ProblemData& problem);
+
 /// One application of a bridge: the image, and the maps of vectors over the two problems.
 class Bridge {
  public:
@@ -73,7 +76,8 @@ Planned PlanBridges(Features features, Features abilities);
 class BridgeChain {
  public:
   BridgeChain() = default;
-  BridgeChain(const sy_problem& problem, const BridgePlan& plan);
+  /// Cones that are off are left out first.
+  BridgeChain(const Problem& problem, const BridgePlan& plan);
 
   [[nodiscard]] bool empty() const { return bridges_.empty(); }
   /// The last image; only where not empty().

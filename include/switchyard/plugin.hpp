@@ -80,15 +80,17 @@ sy_status Guarded(sy_error* error, Body&& body) noexcept {
   }
 }
 
+/// What a class needs to stand behind a table. It is made from the host, or from the table and the
+/// host where one class serves several tables.
 template <class S>
-concept Solver = requires(S& s, const sy_host& host, const sy_problem& problem,
-                          const sy_control& control, sy_result& result, const sy_value& value) {
-  S(host);
-  { S::Describe() } -> std::same_as<sy_solver>;
-  s.SetOption(std::string_view(), value);
-  s.Load(problem, std::uint64_t{});
-  s.Solve(control, result);
-};
+concept Solver = (std::constructible_from<S, const sy_host&> ||
+                  std::constructible_from<S, const sy_solver&, const sy_host&>) &&
+                 requires(S& s, const sy_problem& problem, const sy_control& control,
+                          sy_result& result, const sy_value& value) {
+                   s.SetOption(std::string_view(), value);
+                   s.Load(problem, std::uint64_t{});
+                   s.Solve(control, result);
+                 };
 
 /// What an instance points to: the solver, and how far its life has come.
 template <class S>
@@ -118,9 +120,16 @@ S& Loaded(sy_instance* instance, const char* call) {
 
 template <Solver S>
 void WriteRequired(sy_solver& t) {
-  t.create = [](const sy_solver*, const sy_host* host, sy_instance** out,
+  t.create = [](const sy_solver* self, const sy_host* host, sy_instance** out,
                 sy_error* error) noexcept {
-    return Guarded(error, [&] { *out = NewInstance(std::make_unique<S>(*host), false); });
+    return Guarded(error, [&] {
+      if constexpr (std::constructible_from<S, const sy_solver&, const sy_host&>) {
+        *out = NewInstance(std::make_unique<S>(*self, *host), false);
+      } else {
+        static_cast<void>(self);
+        *out = NewInstance(std::make_unique<S>(*host), false);
+      }
+    });
   };
   t.destroy = [](sy_instance* p) noexcept { delete &As<S>(p); };
   t.set_option = [](sy_instance* p, const char* name, const sy_value* value,
@@ -187,13 +196,19 @@ void WriteOptional(sy_solver& t) {
   }
 }
 
+/// The functions of a table whose data is already there.
 template <Solver S>
-sy_solver Table() {
-  sy_solver t = S::Describe();
+void WriteFunctions(sy_solver& t) {
   t.size = sizeof t;
   WriteRequired<S>(t);
   WriteBeforeCreation<S>(t);
   WriteOptional<S>(t);
+}
+
+template <Solver S>
+sy_solver Table() {
+  sy_solver t = S::Describe();
+  WriteFunctions<S>(t);
   return t;
 }
 

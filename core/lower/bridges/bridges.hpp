@@ -12,4 +12,7 @@ BridgeKind RotatedToSecondOrder();
 BridgeKind SecondOrderToRotated();
 BridgeKind QuadraticObjectiveToCone();
 
+/// The problem without the cones that are off: see switched_off_cones.cpp.
+std::unique_ptr<Bridge> LeaveOutSwitchedOff(const ProblemData& problem);
+
 }  // namespace switchyard

@@ -1,0 +1,348 @@
+#include "core/host/facade.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <set>
+
+#include "core/host/problem_check.hpp"
+#include "core/host/watch.hpp"
+#include "core/lower/difference.hpp"
+#include "switchyard/error.hpp"
+#include "switchyard/problem_update.hpp"
+
+namespace switchyard {
+namespace {
+
+using plugin::Failure;
+
+/// Holds a backend that runs one at a time, for one call.
+class Turn {
+ public:
+  explicit Turn(const FacadeContext& context) {
+    if ((context.backend->facts.traits & SY_ONE_AT_A_TIME) == 0) return;
+    if (!held().insert(&context).second) {
+      throw Failure(SY_E_STATE, context.backend->id +
+                                    " runs one at a time and is already running in this thread: "
+                                    "it cannot be used from inside its own solve");
+    }
+    context_ = &context;
+    lock_ = std::unique_lock(const_cast<FacadeContext&>(context).turn);
+  }
+  Turn(const Turn&) = delete;
+  Turn& operator=(const Turn&) = delete;
+  ~Turn() {
+    if (context_ != nullptr) held().erase(context_);
+  }
+
+ private:
+  static std::set<const FacadeContext*>& held() {
+    thread_local std::set<const FacadeContext*> held;
+    return held;
+  }
+  const FacadeContext* context_ = nullptr;
+  std::unique_lock<std::mutex> lock_;
+};
+
+/// A BackendError as the failure of the facade's own call.
+template <class Body>
+auto Forwarding(Body&& body) {
+  try {
+    return body();
+  } catch (const BackendError& e) {
+    throw Failure(e.code(), e.what());
+  } catch (const std::invalid_argument& e) {
+    throw Failure(SY_E_ARGUMENT, e.what());
+  }
+}
+
+std::uint64_t KindsOf(const sy_update& update) {
+  std::uint64_t kinds = update.whole;
+  if (update.num_x > 0 || update.num_rows > 0) kinds |= SY_UPDATES_BOUNDS;
+  if (update.num_cones > 0) kinds |= SY_UPDATES_SWITCH;
+  if (update.num_gone_rows > 0 || update.num_gone_cones > 0) kinds |= SY_UPDATES_REMOVE;
+  if (update.more != nullptr) kinds |= SY_UPDATES_APPEND;
+  return kinds;
+}
+
+bool IsVariableBoundsAlone(const sy_update& update) {
+  return update.whole == 0 && update.num_rows == 0 && update.num_cones == 0 &&
+         update.num_gone_rows == 0 && update.num_gone_cones == 0 && update.more == nullptr;
+}
+
+void CopyOut(const std::vector<double>& from, double* to, std::int32_t count) {
+  if (to == nullptr) return;
+  std::fill(to, to + count, 0.0);
+  std::copy_n(from.begin(), std::min(from.size(), static_cast<std::size_t>(count)), to);
+}
+
+}  // namespace
+
+BridgePlan PlanFor(const sy_problem& problem, const Backend& backend) {
+  Planned planned =
+      PlanBridges(FeaturesOf(problem), AbilitiesOf(backend.facts, problem.integer != nullptr));
+  if (!planned.found) {
+    const bool only_together = (planned.missing & ~AbilitiesOf(backend.facts, false)) == 0;
+    throw BackendError(SY_E_UNSUPPORTED,
+                       "does not take " + DescribeFeatures(planned.missing) +
+                           (only_together ? " together with integer variables" : ""));
+  }
+  return std::move(planned.plan);
+}
+
+Facade::Facade(const sy_solver& self, const sy_host& host)
+    : context_(static_cast<const FacadeContext*>(self.context)) {
+  Forwarding([&] {
+    const Turn turn(*context_);
+    instance_ = std::make_unique<Instance>(facts(), host);
+    context_->configure(*instance_);
+  });
+}
+
+void Facade::SetOption(std::string_view name, const sy_value& value) {
+  Forwarding([&] {
+    const Turn turn(*context_);
+    FindOption(facts(), std::string(name));
+    instance_->SetOption(std::string(name), value);
+  });
+}
+
+void Facade::Load(const sy_problem& problem, std::uint64_t updates) {
+  Forwarding([&] {
+    const Turn turn(*context_);
+    CheckProblem(problem);
+    problem_ = std::make_shared<Problem>(problem);
+    declared_ = updates;
+    Reload();
+  });
+}
+
+void Facade::Reload() {
+  plan_ = PlanFor(problem_->view(), *context_->backend);
+  auto chain = std::make_unique<BridgeChain>(*problem_, plan_);
+  const sy_problem& given = chain->empty() ? problem_->view() : chain->image().view();
+  instance_->Load(given, declared_ & facts().updates);
+  chain_ = std::move(chain);
+  sent_ = chain_->empty() ? problem_ : nullptr;
+  ++loads_;
+}
+
+void Facade::Send(const sy_update& update) {
+  instance_->Update(update);
+  ++updates_;
+}
+
+void Facade::Update(const sy_update& update) {
+  Forwarding([&] {
+    const Turn turn(*context_);
+    // What the backend was given stays as it is until it gets the next.
+    auto next = sent_ == problem_ ? std::make_shared<Problem>(*problem_) : problem_;
+    next->Apply(update);
+    CheckProblem(next->view());
+    problem_ = std::move(next);
+    if (PassStraight(update, KindsOf(update))) return;
+    SendDifference();
+  });
+}
+
+// An update that needs no bridge to run again: none stands between, or only bounds of variables
+// changed and stay bounds.
+bool Facade::PassStraight(const sy_update& update, std::uint64_t kinds) {
+  if ((kinds & ~(facts().updates & declared_)) != 0) return false;
+  if (chain_->empty()) {
+    if (PlanBridges(FeaturesOf(problem_->view()),
+                    AbilitiesOf(facts(), problem_->view().integer != nullptr))
+            .plan.size() != plan_.size()) {
+      return false;
+    }
+    sy_update ours = update;
+    if (update.problem != nullptr) ours.problem = &problem_->view();
+    Send(ours);
+    if (update.problem != nullptr) sent_ = problem_;
+    return true;
+  }
+  const bool bounds_stay = std::none_of(plan_.begin(), plan_.end(), [](const BridgeKind* kind) {
+    return (kind->removes & SY_ACCEPTS_BOUNDS) != 0;
+  });
+  if (!bounds_stay || !IsVariableBoundsAlone(update)) return false;
+  Send(update);
+  return true;
+}
+
+void Facade::SendDifference() {
+  const BridgePlan plan = PlanFor(problem_->view(), *context_->backend);
+  auto fresh = std::make_unique<BridgeChain>(*problem_, plan);
+  if (plan != plan_ || fresh->empty() || chain_->empty()) return Reload();
+  const std::uint64_t kinds = ProblemDifference(chain_->image().data(), fresh->image().data());
+  if ((kinds & ~(facts().updates & declared_)) != 0) return Reload();
+  if (kinds != 0) {
+    sy_update update{};
+    update.size = sizeof update;
+    update.whole = static_cast<std::uint32_t>(kinds);
+    update.problem = &fresh->image().view();
+    Send(update);
+  }
+  chain_ = std::move(fresh);
+}
+
+void Facade::WarmStart(const sy_start& start) {
+  Forwarding([&] {
+    if (facts().warm_start == nullptr) return;  // a start is a wish
+    const Turn turn(*context_);
+    if (chain_->empty()) return instance_->WarmStart(start);
+    const ProblemData& d = problem_->data();
+    const auto copy = [](const double* from, std::int32_t count) {
+      return from == nullptr ? std::vector<double>() : std::vector<double>(from, from + count);
+    };
+    Vectors v{copy(start.x, d.num_vars), copy(start.x_dual, d.num_vars),
+              copy(start.row_dual, d.num_rows()), copy(start.cone_dual, d.num_cone_rows())};
+    chain_->Forward(v);
+    const auto data = [](const std::vector<double>& from) {
+      return from.empty() ? nullptr : from.data();
+    };
+    sy_start mapped = start;
+    mapped.x = data(v.x);
+    mapped.x_dual = data(v.x_dual);
+    mapped.row_dual = data(v.row_dual);
+    mapped.cone_dual = data(v.cone_dual);
+    mapped.x_basis = nullptr;  // a basis speaks of rows, which have moved
+    mapped.row_basis = nullptr;
+    instance_->WarmStart(mapped);
+  });
+}
+
+void Facade::Solve(const sy_control& control, sy_result& result) {
+  Forwarding([&] {
+    const Turn turn(*context_);
+    Watch watch(control, facts());
+    const sy_control given = watch.control();
+    sy_result found = result;
+    Vectors v;
+    if (!chain_->empty()) {
+      const ProblemData& image = chain_->image().data();
+      const auto buffer = [](std::vector<double>& values, std::int32_t count, double fill) {
+        values.assign(static_cast<std::size_t>(count), fill);
+        return values.data();
+      };
+      found.x = buffer(v.x, image.num_vars, std::nan(""));
+      found.x_dual = buffer(v.x_dual, image.num_vars, 0);
+      found.row_dual = buffer(v.row_dual, image.num_rows(), 0);
+      found.cone_dual = buffer(v.cone_dual, image.num_cone_rows(), 0);
+      found.x_basis = found.row_basis = nullptr;
+      found.relaxed_x = nullptr;
+    }
+    instance_->Solve(given, found);
+    if (watch.stopped_by() != SY_NOT_SOLVED && found.termination == SY_CANCELLED) {
+      found.termination = watch.stopped_by();
+    }
+    Recover(found, v, result);
+    CheckAnswer(result);
+  });
+}
+
+void Facade::Recover(sy_result& found, const Vectors& mapped, sy_result& result) const {
+  const sy_result wanted = result;
+  result = found;
+  if (chain_->empty()) return;
+  Vectors v = mapped;
+  chain_->Back(v);
+  const ProblemData& d = problem_->data();
+  CopyOut(v.x, wanted.x, d.num_vars);
+  CopyOut(v.x_dual, wanted.x_dual, d.num_vars);
+  CopyOut(v.row_dual, wanted.row_dual, d.num_rows());
+  CopyOut(v.cone_dual, wanted.cone_dual, d.num_cone_rows());
+  if (wanted.x_basis != nullptr) std::memset(wanted.x_basis, SY_BASIS_UNKNOWN, d.q.size());
+  if (wanted.row_basis != nullptr) {
+    std::memset(wanted.row_basis, SY_BASIS_UNKNOWN, d.row_lower.size());
+  }
+  result.x = wanted.x;
+  result.x_dual = wanted.x_dual;
+  result.row_dual = wanted.row_dual;
+  result.cone_dual = wanted.cone_dual;
+  result.x_basis = wanted.x_basis;
+  result.row_basis = wanted.row_basis;
+  result.relaxed_x = wanted.relaxed_x;
+  if (result.relaxed_x != nullptr) result.relaxed = std::nan("");
+}
+
+// What a backend says is not taken on trust: numbers that are none, and words of a newer version.
+void Facade::CheckAnswer(sy_result& result) const {
+  if (result.termination < SY_NOT_SOLVED || result.termination > SY_RESTRICTIONS_FAILED) {
+    result.termination = SY_NOT_SOLVED;
+  }
+  const auto known = [](sy_point_kind kind) {
+    return kind >= SY_NO_POINT && kind <= SY_CERTIFICATE ? kind : SY_NO_POINT;
+  };
+  result.primal = known(result.primal);
+  result.dual = known(result.dual);
+  const ProblemData& d = problem_->data();
+  const auto check = [&](const char* name, const double* values, std::int32_t count) {
+    for (std::int32_t i = 0; values != nullptr && i < count; ++i) {
+      if (std::isfinite(values[i])) continue;
+      throw Failure(SY_E_INTERNAL, Text(context_->backend->id, ": it returned ", values[i], " in ",
+                                        name, "[", i, "]"));
+    }
+  };
+  if (result.primal != SY_NO_POINT) check("x", result.x, d.num_vars);
+  if (result.dual != SY_NO_POINT) {
+    check("x_dual", result.x_dual, d.num_vars);
+    check("row_dual", result.row_dual, d.num_rows());
+    check("cone_dual", result.cone_dual, d.num_cone_rows());
+  }
+}
+
+const void* Facade::Extension(const char* id) {
+  static constexpr sy_facade kFacade = {
+      sizeof(sy_facade), 0,
+      [](sy_instance* p) noexcept {
+        return static_cast<std::int32_t>(plugin::As<Facade>(p).solver->loads());
+      },
+      [](sy_instance* p) noexcept {
+        return static_cast<std::int32_t>(plugin::As<Facade>(p).solver->updates());
+      }};
+  return std::strcmp(id, "sy.facade/1") == 0 ? &kFacade : nullptr;
+}
+
+sy_solver Facade::Table(const FacadeContext& context) {
+  sy_solver table = context.backend->facts;
+  const auto reachable = [&](Features abilities) {
+    Features all = abilities;
+    for (const BridgeKind& kind : BridgeKinds()) {
+      for (Features bit = 1; bit != 0; bit <<= 1) {
+        if ((kind.removes & bit) != 0 && PlanBridges(bit, abilities).found) all |= bit;
+      }
+    }
+    return all;
+  };
+  constexpr Features kSections = 0xffffffff;
+  const Features continuous = reachable(AbilitiesOf(table, false));
+  table.accepts = continuous & kSections;
+  table.cones = continuous >> 32;
+  if (table.integer_accepts != 0) {
+    const Features integer = reachable(AbilitiesOf(table, true));
+    table.integer_accepts = integer & kSections;
+    table.integer_cones = integer >> 32;
+  }
+  if ((table.honors & SY_HONORS_CANCELLED) != 0) table.honors |= SY_HONORS_SECONDS;
+  plugin::WriteFunctions<Facade>(table);
+  table.clone = nullptr;
+  table.context = &context;
+  table.ready = nullptr;
+  table.supports = [](const sy_solver* self, const sy_host* host, const sy_problem* problem,
+                      sy_error* error) noexcept {
+    return plugin::Guarded(error, [&] {
+      const auto& at = *static_cast<const FacadeContext*>(self->context);
+      Forwarding([&] {
+        const Problem whole(plugin::Whole(*problem));
+        const BridgeChain chain(whole, PlanFor(whole.view(), *at.backend));
+        const sy_solver& backend = at.backend->facts;
+        if (backend.supports == nullptr) return;
+        const sy_problem& given = chain.empty() ? whole.view() : chain.image().view();
+        Call(backend, "supports", backend.supports, &backend, host, &given);
+      });
+    });
+  };
+  return table;
+}
+
+}  // namespace switchyard

@@ -1,0 +1,75 @@
+// core/host/facade.hpp - the host's table over a backend: the one that everyone but the host calls.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "core/host/instance.hpp"
+#include "core/lower/bridge.hpp"
+#include "switchyard/host/host.hpp"
+#include "switchyard/plugin.hpp"
+
+namespace switchyard {
+
+/// What a facade's table refers to; lives as long as the host.
+struct FacadeContext {
+  const Backend* backend = nullptr;
+  const sy_host* host = nullptr;
+  /// Gives a new instance the user's options for this backend.
+  std::function<void(Instance&)> configure;
+  std::mutex turn;  // of a backend that runs one at a time
+};
+
+/// A sy_solver over a backend that takes every section that bridges reach, and every update.
+///
+/// It owns one copy of the problem. An update is applied to the copy, bridges run again, and what
+/// differs is sent: as an update where the backend takes that kind, as a new load where it does
+/// not. Bounds of variables pass straight through bridges that keep them as bounds.
+class Facade {
+ public:
+  Facade(const sy_solver& self, const sy_host& host);
+  static sy_solver Table(const FacadeContext& context);
+
+  void SetOption(std::string_view name, const sy_value& value);
+  void Load(const sy_problem& problem, std::uint64_t updates);
+  void Update(const sy_update& update);
+  void WarmStart(const sy_start& start);
+  void Solve(const sy_control& control, sy_result& result);
+  static const void* Extension(const char* id);
+
+  [[nodiscard]] int loads() const { return loads_; }
+  [[nodiscard]] int updates() const { return updates_; }
+
+ private:
+  [[nodiscard]] const sy_solver& facts() const { return context_->backend->facts; }
+  void Reload();
+  void SendDifference();
+  bool PassStraight(const sy_update& update, std::uint64_t kinds);
+  void Send(const sy_update& update);
+  void Recover(sy_result& found, const Vectors& mapped, sy_result& result) const;
+  void CheckAnswer(sy_result& result) const;
+
+  const FacadeContext* context_;
+  std::unique_ptr<Instance> instance_;
+  std::shared_ptr<Problem> problem_;
+  std::shared_ptr<Problem> sent_;  // what the backend was given, where no bridge stands between
+  std::unique_ptr<BridgeChain> chain_;
+  BridgePlan plan_;
+  std::uint64_t declared_ = 0;  // kinds of update that the caller announced
+  int loads_ = 0;
+  int updates_ = 0;
+};
+
+/// "sy.facade/1", of the host's tables: how an instance was served.
+struct sy_facade {
+  std::uint32_t size;
+  std::uint32_t reserved;
+  std::int32_t (*loads)(sy_instance*) SY_NOEXCEPT;
+  std::int32_t (*updates)(sy_instance*) SY_NOEXCEPT;
+};
+
+/// Throws BackendError (SY_E_UNSUPPORTED) where no chain of bridges reaches the backend.
+BridgePlan PlanFor(const sy_problem& problem, const Backend& backend);
+
+}  // namespace switchyard

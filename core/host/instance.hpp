@@ -1,0 +1,91 @@
+// core/host/instance.hpp - calls through a sy_solver table, from the host's side.
+#pragma once
+
+#include <exception>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "switchyard/abi.h"
+
+namespace switchyard {
+
+/// A call that a backend failed.
+class BackendError : public std::runtime_error {
+ public:
+  BackendError(sy_status code, const std::string& text) : std::runtime_error(text), code_(code) {}
+  [[nodiscard]] sy_status code() const { return code_; }
+
+ private:
+  sy_status code_;
+};
+
+/// Calls `function`, which is not to throw, as if it might; what goes wrong is a BackendError that
+/// names the solver and the call. The pointer is taken without its noexcept, so that an exception
+/// which a module lets out is caught here.
+template <class... Parameters, class... Arguments>
+void Call(const sy_solver& solver, const char* name, sy_status (*function)(Parameters...),
+          Arguments... arguments) {
+  const std::string who = std::string(solver.id) + ": ";
+  if (function == nullptr) throw BackendError(SY_E_UNSUPPORTED, who + name + " is not offered");
+  sy_error error{};
+  sy_status status = SY_OK;
+  try {
+    status = function(arguments..., &error);
+  } catch (const std::exception& e) {
+    throw BackendError(SY_E_INTERNAL, who + name + " let an exception out: " + e.what());
+  } catch (...) {
+    throw BackendError(SY_E_INTERNAL, who + name + " let an exception out");
+  }
+  if (status >= 0) return;
+  error.text[sizeof error.text - 1] = '\0';
+  const std::string text = error.text[0] != '\0' ? error.text : "no reason given";
+  throw BackendError(status, who + text);
+}
+
+/// An instance of a solver, destroyed with it.
+class Instance {
+ public:
+  Instance(const sy_solver& solver, const sy_host& host) : solver_(&solver) {
+    Call(solver, "create", solver.create, &solver, &host, &instance_);
+    if (instance_ == nullptr) {
+      throw BackendError(SY_E_INTERNAL, std::string(solver.id) + ": create gave no instance");
+    }
+  }
+  Instance(Instance&& other) noexcept
+      : solver_(other.solver_), instance_(std::exchange(other.instance_, nullptr)) {}
+  Instance(const Instance&) = delete;
+  Instance& operator=(const Instance&) = delete;
+  ~Instance() {
+    if (instance_ == nullptr) return;
+    void (*destroy)(sy_instance*) = solver_->destroy;
+    try {
+      destroy(instance_);
+    } catch (...) {  // nothing left to tell it to
+    }
+  }
+
+  void SetOption(const std::string& name, const sy_value& value) {
+    Call(*solver_, "set_option", solver_->set_option, instance_, name.c_str(), &value);
+  }
+  void Load(const sy_problem& problem, std::uint64_t updates) {
+    Call(*solver_, "load", solver_->load, instance_, &problem, updates);
+  }
+  void Update(const sy_update& update) {
+    Call(*solver_, "update", solver_->update, instance_, &update);
+  }
+  void WarmStart(const sy_start& start) {
+    Call(*solver_, "warm_start", solver_->warm_start, instance_, &start);
+  }
+  void Solve(const sy_control& control, sy_result& result) {
+    Call(*solver_, "solve", solver_->solve, instance_, &control, &result);
+  }
+  [[nodiscard]] const sy_solver& solver() const { return *solver_; }
+  [[nodiscard]] sy_instance* get() const { return instance_; }
+
+ private:
+  const sy_solver* solver_;
+  sy_instance* instance_ = nullptr;
+};
+
+}  // namespace switchyard

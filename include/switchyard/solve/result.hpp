@@ -1,0 +1,127 @@
+// switchyard/solve/result.hpp - what a solve found, in the program's own terms, recomputed there.
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "switchyard/export.hpp"
+#include "switchyard/model/program.hpp"
+#include "switchyard/solve/options.hpp"
+
+namespace switchyard {
+
+/// Why a solve ended. The first values are the ABI's.
+enum class Termination {
+  kNotSolved, kOptimal, kLocallyOptimal, kInfeasible, kUnbounded, kInfeasibleOrUnbounded,
+  kLocallyInfeasible, kIterationLimit, kTimeLimit, kNodeLimit, kCancelled, kNumericalTrouble,
+  kEvaluationFailed, kCutoff, kTarget, kMemoryLimit, kNoPath, kRestrictionsFailed,
+  kNoBackend, kBackendFailed
+};
+/// "optimal", "time_limit", ...: the words of result/1.
+SWITCHYARD_EXPORT std::string_view to_string(Termination termination);
+
+/// What a vector of the result is.
+enum class PointKind { kNone, kFeasible, kNearlyFeasible, kInfeasible, kRay };
+SWITCHYARD_EXPORT std::string_view to_string(PointKind kind);
+
+/// How far x is from feasible in the program, absolute; each the largest over its kind.
+struct Violation {
+  double bounds = 0;
+  double rows = 0;
+  double cones = 0;
+  double integrality = 0;
+  double nonlinear = 0;
+};
+
+struct SolveTimes {  // seconds
+  double read = 0;
+  double build = 0;
+  double lower = 0;
+  double presolve = 0;
+  double solve = 0;
+  double recover = 0;
+  double total = 0;
+};
+
+struct Considered {
+  std::string solver;
+  bool chosen = false;
+  std::string why;
+};
+
+/// Three things apart: why it stopped, what the primal vector is, what the dual vectors are.
+///
+/// Nothing here is taken on trust: the objective and violation are recomputed in the program, an
+/// optimum of a continuous convex program stands only with duals that support it to 1e-6, and
+/// certificates are checked. Where the backend's word was not supported, `message` says so.
+class SWITCHYARD_EXPORT MathematicalProgramResult {
+ public:
+  /// Solved to optimality, or to a target or local optimum asked for, at a feasible point.
+  [[nodiscard]] bool is_success() const;
+  Termination termination = Termination::kNotSolved;
+  PointKind primal = PointKind::kNone;
+  PointKind dual = PointKind::kNone;
+  std::string message;              // the backend's own words, or the reason
+  std::vector<std::string> notes;   // what was not kept, dropped or replaced
+  std::vector<std::string> bridges; // by name, in order
+  std::vector<Considered> considered;
+
+  std::string solver;  // id
+  std::string solver_version;
+  double objective = std::numeric_limits<double>::quiet_NaN();  // in the program's sense
+  /// On the optimum: proven by us from the duals where the program is continuous and convex
+  /// (NaN: nothing could be proven), the backend's word where there are integers.
+  double bound = std::numeric_limits<double>::quiet_NaN();
+  Violation violation;
+  std::int64_t iterations = -1;
+  std::int64_t nodes = -1;
+  SolveTimes seconds;
+
+  /// |objective - bound| / max(1e-10, |objective|); NaN without both.
+  [[nodiscard]] double gap() const;
+
+  // ---- By the names of the program ----
+
+  [[nodiscard]] const Eigen::VectorXd& get_x_val() const { return x_; }
+  [[nodiscard]] double get_optimal_cost() const { return objective; }
+  [[nodiscard]] SolverId get_solver_id() const { return SolverId(solver); }
+  /// Throws InvalidArgument where there is no point, or the variable is not the program's.
+  [[nodiscard]] double GetSolution(Variable variable) const;
+  template <class Derived>
+    requires std::is_same_v<typename Derived::Scalar, Variable>
+  [[nodiscard]] auto GetSolution(const Eigen::MatrixBase<Derived>& variables) const {
+    Eigen::Matrix<double, Derived::RowsAtCompileTime, Derived::ColsAtCompileTime> values(
+        variables.rows(), variables.cols());
+    for (Eigen::Index j = 0; j < variables.cols(); ++j) {
+      for (Eigen::Index i = 0; i < variables.rows(); ++i) {
+        values(i, j) = GetSolution(variables(i, j));
+      }
+    }
+    return values;
+  }
+  [[nodiscard]] const Eigen::VectorXd& GetSolution() const { return x_; }
+  /// The shadow price of the constraint's right-hand side: d(optimal cost) / d(rhs), an active
+  /// lower side >= 0 and an active upper side <= 0 where the program minimizes; of a cone, the dual
+  /// y in its dual cone, -d(cost)/d(b). Throws InvalidArgument where there is none.
+  [[nodiscard]] Eigen::VectorXd GetDualSolution(const Binding<Constraint>& constraint) const;
+  /// The constraints that x violates by more than `tolerance`.
+  [[nodiscard]] std::vector<Binding<Constraint>> GetInfeasibleConstraints(
+      const MathematicalProgram& program, double tolerance = 1e-6) const;
+  [[nodiscard]] std::vector<std::string> GetInfeasibleConstraintNames(
+      const MathematicalProgram& program, double tolerance = 1e-6) const;
+
+ private:
+  friend class Recovery;
+  [[nodiscard]] int IndexOf(Variable variable) const;
+
+  Eigen::VectorXd x_;
+  std::vector<Variable> variables_;                // by id
+  std::vector<int> index_;                         // of each
+  std::vector<std::pair<Binding<Constraint>, Eigen::VectorXd>> duals_;
+};
+
+}  // namespace switchyard
