@@ -48,10 +48,6 @@ class ErrorFreeSum {
     if (std::abs(p) < kUnderflow && a != 0 && b != 0) lost_ += DBL_MIN;
   }
 
-  struct Interval {
-    double lower;
-    double upper;
-  };
   /// Where the true sum is; a point where nothing was rounded.
   [[nodiscard]] Interval Enclosure() const {
     double sum = high_;
@@ -181,7 +177,7 @@ inline void SubtractTransposed(const sy_csc* a, const std::vector<double>& dual,
 }
 
 /// How far rho reaches to the sign that an infinite side does not bear; 0 where it does not.
-inline double OpenSize(const ErrorFreeSum::Interval& rho, double lower, double upper) {
+inline double OpenSize(const Interval& rho, double lower, double upper) {
   double open = 0;
   if (!(rho.lower >= 0) && upper == kInfinity) open = std::max(open, -rho.lower);
   if (!(rho.upper <= 0) && lower == -kInfinity) open = std::max(open, rho.upper);
@@ -189,7 +185,7 @@ inline double OpenSize(const ErrorFreeSum::Interval& rho, double lower, double u
 }
 
 /// min r x over r in rho and x in [lower, upper], where no infinite side is open.
-inline double LeastProduct(const ErrorFreeSum::Interval& rho, double lower, double upper) {
+inline double LeastProduct(const Interval& rho, double lower, double upper) {
   double least = kInfinity;
   for (const double side : {lower, upper}) {
     if (std::isfinite(side)) least = std::min({least, rho.lower * side, rho.upper * side});
@@ -230,7 +226,7 @@ inline SafeBound SafeDualBound(const sy_problem& problem, const double* x, const
   SafeBound bound{0, 0, -1, 0};
   for (std::int32_t j = 0; j < problem.num_vars; ++j) {
     const ErrorFreeSum& sum = rho[static_cast<std::size_t>(j)];
-    const auto interval = sum.Enclosure();
+    const Interval interval = sum.Enclosure();
     const double l = lower != nullptr ? lower[j] : -kInfinity;
     const double u = upper != nullptr ? upper[j] : kInfinity;
     const double open = OpenSize(interval, l, u);
