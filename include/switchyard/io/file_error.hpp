@@ -1,0 +1,35 @@
+// switchyard/io/file_error.hpp - what is wrong with a file, and where.
+#pragma once
+
+#include <string>
+
+#include "switchyard/error.hpp"
+#include "switchyard/export.hpp"
+
+namespace switchyard {
+
+/// A file that is not what its format asks for. The text is
+///   file:line:column: expected EXPECTED, got FOUND
+class SWITCHYARD_EXPORT FileError : public InvalidArgument {
+ public:
+  /// Lines and columns (bytes) count from 1. `found` is a phrase: what stood there, in quotes, or
+  /// "the end of the line".
+  FileError(const std::string& file, int line, int column, const std::string& expected,
+            const std::string& found);
+  ~FileError() override;
+
+  [[nodiscard]] const std::string& file() const { return file_; }
+  [[nodiscard]] int line() const { return line_; }
+  [[nodiscard]] int column() const { return column_; }
+  [[nodiscard]] const std::string& expected() const { return expected_; }
+  [[nodiscard]] const std::string& found() const { return found_; }
+
+ private:
+  std::string file_;
+  int line_;
+  int column_;
+  std::string expected_;
+  std::string found_;
+};
+
+}  // namespace switchyard
