@@ -1,6 +1,6 @@
 # The habits. Each target does its own set-up; `make help` says what there is.
 .DEFAULT_GOAL := help
-.PHONY: help setup build demo test install bench check clean
+.PHONY: help setup ready build demo test install bench check clean
 
 PREFIX ?= /usr/local
 BUILD := build
@@ -10,19 +10,22 @@ help: ## show this list
 	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "  make %-9s %s\n", $$1, $$2}' Makefile
 
 setup: ## install what the build needs (system packages, HiGHS from PyPI)
+	@scripts/setup --retry
+
+ready:
 	@scripts/setup
 
-build: setup ## build everything; leaves build/bin/switchyard and its plugins
+build: ready ## build everything; leaves build/bin/switchyard and its plugins
 	@scripts/build
 
-demo: setup ## build, and solve three problems with every backend that takes them
+demo: ready ## build, and solve three problems with every backend that takes them
 	@scripts/build products
 	@scripts/demo
 
 test: build ## build, and run the tests
 	@$(CTEST) -j "$$(scripts/jobs)"
 
-install: setup ## install to PREFIX (/usr/local unless given)
+install: ready ## install to PREFIX (/usr/local unless given)
 	@scripts/build products
 	@scripts/install "$(PREFIX)"
 
