@@ -50,6 +50,15 @@ class Includes(Tree):
             "core/model/program.cpp:1: includes switchyard/lower/lower.hpp; model may know linalg, "
             "not lower")
 
+    def test_the_host_applies_bridges_and_neither_knows_the_model(self):
+        self.assertEqual(self.found({
+            "core/host/facade.hpp": '#include "core/lower/bridge.hpp"\n',
+            "core/lower/lowering.cpp": '#include "core/lower/vectors.hpp"\n'}), [])
+        self.assert_only(
+            {"core/lower/bridges/rows.cpp": '#include "core/lower/lowering.hpp"\n'},
+            "core/lower/bridges/rows.cpp:1: includes core/lower/lowering.hpp; bridges may know the "
+            "shared headers alone, not lower")
+
     def test_it_holds_for_public_headers_and_for_includes_from_the_folder_of_core(self):
         self.assertEqual(len(self.found({
             "include/switchyard/model/program.hpp": '#include "switchyard/solve/solve.hpp"\n',

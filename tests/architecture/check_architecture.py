@@ -17,17 +17,21 @@ SHARED = {"abi.h", "hints.h", "plugin.hpp", "problem.hpp", "problem_update.hpp",
           "safe_bound.hpp", "arcs.hpp"}
 
 # Inside core, each part and the parts it may know. `abi` are the shared headers, known to all.
+# `bridges` are those files of lower that map a sy_problem to a sy_problem: the host applies them for
+# each backend, and neither knows the model.
 CORE_KNOWS = {
     "linalg": set(),
+    "bridges": set(),
     "model": {"linalg"},
-    "lower": {"linalg", "model"},
-    "host": set(),
+    "lower": {"linalg", "bridges", "model"},
+    "host": {"bridges"},
     "io": {"linalg", "model"},
-    "solve": {"linalg", "model", "lower", "host"},
-    "sets": {"linalg", "model", "lower", "host", "solve"},
-    "gcs": {"linalg", "model", "lower", "host", "solve", "sets"},
-    "trajectory": {"linalg", "model", "lower", "host", "solve", "sets", "gcs"},
+    "solve": {"linalg", "bridges", "model", "lower", "host"},
+    "sets": {"linalg", "bridges", "model", "lower", "host", "solve"},
+    "gcs": {"linalg", "bridges", "model", "lower", "host", "solve", "sets"},
+    "trajectory": {"linalg", "bridges", "model", "lower", "host", "solve", "sets", "gcs"},
 }
+BRIDGES = re.compile(r"lower/(bridges/.*|(bridge|vectors|difference)\.[ch]pp)")
 
 # Headers of solver libraries: core names no solver.
 SOLVER_HEADERS = re.compile(
@@ -51,22 +55,25 @@ def sources(tree):
             yield path, inside
 
 
+def part_of(place):
+    """The part of core for a place below core/ or include/switchyard/; None where it is in none."""
+    if BRIDGES.fullmatch(place):
+        return "bridges"
+    return place.split("/")[0] if "/" in place else None
+
+
 def part_of_core(inside):
     """The part of core that a file belongs to, by its folder; None outside core."""
-    parts = inside.parts
-    if parts[0] == "core" and len(parts) > 2:
-        return parts[1]
-    if parts[:2] == ("include", "switchyard") and len(parts) > 3:
-        return parts[2]
+    for folder in ("core/", "include/switchyard/"):
+        if inside.as_posix().startswith(folder):
+            return part_of(inside.as_posix().removeprefix(folder))
     return None
 
 
 def part_included(header):
     """The part of core that an include reaches; None for a shared or a foreign header."""
-    names = header.split("/")
-    if names[0] in ("switchyard", "core"):
-        names = names[1:]
-    return names[0] if len(names) > 1 and names[0] in CORE_KNOWS else None
+    part = part_of(header.removeprefix("switchyard/").removeprefix("core/"))
+    return part if part in CORE_KNOWS else None
 
 
 def check_shared(header, inside):
