@@ -44,6 +44,7 @@ pub const SY_LOG_INFO: i32 = 2;
 
 pub const SY_ACCEPTS_QUADRATIC_OBJECTIVE: u64 = 1 << 2;
 
+pub const SY_PROVES_GLOBAL: u64 = 1 << 2;
 pub const SY_GIVES_DUALS: u64 = 1 << 3;
 pub const SY_GIVES_CERTIFICATES: u64 = 1 << 4;
 

@@ -37,6 +37,9 @@ pub unsafe fn write(
     if primal.as_ref().is_some_and(|point| point.kind != SY_CERTIFICATE) {
         result.objective = found.obj_val + problem.offset();
     }
+    if result.termination == SY_UNBOUNDED {
+        result.objective = f64::NEG_INFINITY;
+    }
     result.primal = put_point(primal, result.x);
     result.dual = put_point(dual, result.cone_dual);
     if result.dual != SY_NO_POINT && !result.x_dual.is_null() {
@@ -54,7 +57,7 @@ pub unsafe fn write_empty(offset: f64, result: &mut sy_result) {
     result.primal = SY_FEASIBLE;
     result.dual = SY_FEASIBLE;
     result.objective = offset;
-    result.bound = f64::NEG_INFINITY;
+    result.bound = offset;
     result.relaxed = f64::NAN;
     result.iterations = 0;
     result.nodes = 0;

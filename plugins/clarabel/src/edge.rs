@@ -198,7 +198,7 @@ fn solver() -> sy_solver {
         cones: cones(),
         integer_accepts: 0,
         integer_cones: 0,
-        traits: SY_GIVES_DUALS | SY_GIVES_CERTIFICATES,
+        traits: SY_PROVES_GLOBAL | SY_GIVES_DUALS | SY_GIVES_CERTIFICATES,
         honors: SY_HONORS_THREADS
             | SY_HONORS_SECONDS
             | SY_HONORS_ITERATIONS
