@@ -7,7 +7,7 @@
 
 #include "core/host/problem_check.hpp"
 #include "core/host/watch.hpp"
-#include "core/lower/difference.hpp"
+#include "core/problem/difference.hpp"
 #include "switchyard/error.hpp"
 #include "switchyard/problem_update.hpp"
 

@@ -5,8 +5,8 @@
 #include <mutex>
 #include <string>
 
+#include "core/bridges/bridge.hpp"
 #include "core/host/instance.hpp"
-#include "core/lower/bridge.hpp"
 #include "switchyard/host/host.hpp"
 #include "switchyard/plugin.hpp"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/lower/difference.hpp"
+#include "core/problem/difference.hpp"
 
 namespace switchyard {
 namespace {

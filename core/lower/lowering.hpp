@@ -5,19 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "core/lower/builder.hpp"
+#include "core/problem/builder.hpp"
 #include "switchyard/model/program.hpp"
 #include "switchyard/problem.hpp"
 
 namespace switchyard {
-
-/// Vectors over one problem: a point with its duals, or a ray. Empty: not there.
-struct Vectors {
-  std::vector<double> x;
-  std::vector<double> x_dual;
-  std::vector<double> row_dual;
-  std::vector<double> cone_dual;
-};
 
 /// A program lowered to a problem. It knows no backend.
 ///

@@ -52,8 +52,7 @@ struct HostOptions {
   /// switchyard/plugins beside libswitchyard.
   std::optional<std::vector<std::string>> folders;
   /// What a backend asks for before it is created: value of `name` for a solver's id.
-  std::function<std::optional<std::string>(const std::string& id, const std::string& name)>
-      setting;
+  std::function<std::optional<std::string>(const std::string& id, const std::string& name)> setting;
 };
 
 /// Receives what backends log; may be called from any thread.

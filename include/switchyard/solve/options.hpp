@@ -50,9 +50,9 @@ struct SolverOptions {
   double time_limit = std::numeric_limits<double>::infinity();  // seconds of wall clock
   std::int64_t iteration_limit = std::numeric_limits<std::int64_t>::max();
   std::int64_t node_limit = std::numeric_limits<std::int64_t>::max();
-  int threads = 0;                                                // 0: the cores allowed
-  int verbosity = 0;                                              // of the log
-  double cutoff = std::numeric_limits<double>::quiet_NaN();       // in the program's sense
+  int threads = 0;                                           // 0: the cores allowed
+  int verbosity = 0;                                         // of the log
+  double cutoff = std::numeric_limits<double>::quiet_NaN();  // in the program's sense
   double target = std::numeric_limits<double>::quiet_NaN();
   double feasibility_tolerance = std::numeric_limits<double>::quiet_NaN();
   double optimality_tolerance = std::numeric_limits<double>::quiet_NaN();
@@ -64,7 +64,7 @@ struct SolverOptions {
   std::function<bool(const SolveProgress&)> progress;
   /// Set from anywhere to stop the solve.
   const std::atomic<bool>* cancelled = nullptr;
-  /// A backend's own options by backend and name.
+  /// A backend's own options by backend ("": whichever is chosen) and name.
   std::map<std::string, std::map<std::string, OptionValue>> options;
 
   void SetOption(const SolverId& solver, const std::string& key, OptionValue value) {

@@ -16,10 +16,26 @@ namespace switchyard {
 
 /// Why a solve ended. The first values are the ABI's.
 enum class Termination {
-  kNotSolved, kOptimal, kLocallyOptimal, kInfeasible, kUnbounded, kInfeasibleOrUnbounded,
-  kLocallyInfeasible, kIterationLimit, kTimeLimit, kNodeLimit, kCancelled, kNumericalTrouble,
-  kEvaluationFailed, kCutoff, kTarget, kMemoryLimit, kNoPath, kRestrictionsFailed,
-  kNoBackend, kBackendFailed
+  kNotSolved,
+  kOptimal,
+  kLocallyOptimal,
+  kInfeasible,
+  kUnbounded,
+  kInfeasibleOrUnbounded,
+  kLocallyInfeasible,
+  kIterationLimit,
+  kTimeLimit,
+  kNodeLimit,
+  kCancelled,
+  kNumericalTrouble,
+  kEvaluationFailed,
+  kCutoff,
+  kTarget,
+  kMemoryLimit,
+  kNoPath,
+  kRestrictionsFailed,
+  kNoBackend,
+  kBackendFailed
 };
 /// "optimal", "time_limit", ...: the words of result/1.
 SWITCHYARD_EXPORT std::string_view to_string(Termination termination);
@@ -65,9 +81,9 @@ class SWITCHYARD_EXPORT MathematicalProgramResult {
   Termination termination = Termination::kNotSolved;
   PointKind primal = PointKind::kNone;
   PointKind dual = PointKind::kNone;
-  std::string message;              // the backend's own words, or the reason
-  std::vector<std::string> notes;   // what was not kept, dropped or replaced
-  std::vector<std::string> bridges; // by name, in order
+  std::string message;               // the backend's own words, or the reason
+  std::vector<std::string> notes;    // what was not kept, dropped or replaced
+  std::vector<std::string> bridges;  // by name, in order
   std::vector<Considered> considered;
 
   std::string solver;  // id
@@ -92,7 +108,7 @@ class SWITCHYARD_EXPORT MathematicalProgramResult {
   /// Throws InvalidArgument where there is no point, or the variable is not the program's.
   [[nodiscard]] double GetSolution(Variable variable) const;
   template <class Derived>
-    requires std::is_same_v<typename Derived::Scalar, Variable>
+  requires std::is_same_v<typename Derived::Scalar, Variable>
   [[nodiscard]] auto GetSolution(const Eigen::MatrixBase<Derived>& variables) const {
     Eigen::Matrix<double, Derived::RowsAtCompileTime, Derived::ColsAtCompileTime> values(
         variables.rows(), variables.cols());
@@ -108,6 +124,7 @@ class SWITCHYARD_EXPORT MathematicalProgramResult {
   /// lower side >= 0 and an active upper side <= 0 where the program minimizes; of a cone, the dual
   /// y in its dual cone, -d(cost)/d(b). Throws InvalidArgument where there is none.
   [[nodiscard]] Eigen::VectorXd GetDualSolution(const Binding<Constraint>& constraint) const;
+  [[nodiscard]] bool has_duals() const { return !duals_.empty(); }
   /// The constraints that x violates by more than `tolerance`.
   [[nodiscard]] std::vector<Binding<Constraint>> GetInfeasibleConstraints(
       const MathematicalProgram& program, double tolerance = 1e-6) const;
@@ -119,8 +136,8 @@ class SWITCHYARD_EXPORT MathematicalProgramResult {
   [[nodiscard]] int IndexOf(Variable variable) const;
 
   Eigen::VectorXd x_;
-  std::vector<Variable> variables_;                // by id
-  std::vector<int> index_;                         // of each
+  std::vector<Variable> variables_;  // ascending
+  std::vector<int> index_;           // of each, in the program
   std::vector<std::pair<Binding<Constraint>, Eigen::VectorXd>> duals_;
 };
 

@@ -16,10 +16,10 @@ namespace switchyard {
 
 /// Solves with the best backend for the program. What a solve finds is a value, also that no
 /// backend serves (kNoBackend); a mistake in the options throws InvalidArgument.
-SWITCHYARD_EXPORT MathematicalProgramResult Solve(
-    const MathematicalProgram& program,
-    const std::optional<Eigen::VectorXd>& initial_guess = std::nullopt,
-    const SolverOptions& options = {});
+SWITCHYARD_EXPORT MathematicalProgramResult
+Solve(const MathematicalProgram& program,
+      const std::optional<Eigen::VectorXd>& initial_guess = std::nullopt,
+      const SolverOptions& options = {});
 
 /// A handle on a backend, or on an order of preference among backends.
 class SWITCHYARD_EXPORT SolverInterface {
@@ -62,6 +62,7 @@ class SWITCHYARD_EXPORT SolverSession {
   void Dump(const std::string& path) const;
 
  private:
+  friend class SolverInterface;
   struct State;
   std::unique_ptr<State> state_;
 };

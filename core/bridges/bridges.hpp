@@ -1,7 +1,7 @@
-// core/lower/bridges/bridges.hpp - one function for each bridge: its row in the table.
+// core/bridges/bridges.hpp - one function for each bridge: its row in the table.
 #pragma once
 
-#include "core/lower/bridge.hpp"
+#include "core/bridges/bridge.hpp"
 
 namespace switchyard {
 

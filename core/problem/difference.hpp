@@ -1,4 +1,4 @@
-// core/lower/difference.hpp - what an update from one problem to another must carry.
+// core/problem/difference.hpp - what an update from one problem to another must carry.
 #pragma once
 
 #include <cstdint>

@@ -1,11 +1,11 @@
-#include "core/lower/bridge.hpp"
+#include "core/bridges/bridge.hpp"
 
 #include <algorithm>
 #include <cstring>
 #include <deque>
 #include <map>
 
-#include "core/lower/bridges/bridges.hpp"
+#include "core/bridges/bridges.hpp"
 #include "switchyard/cones.hpp"
 #include "switchyard/hints.h"
 

@@ -8,7 +8,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/lower/bridges/bridges.hpp"
+#include "core/bridges/bridges.hpp"
+#include "core/problem/builder.hpp"
 #include "switchyard/error.hpp"
 
 namespace switchyard {

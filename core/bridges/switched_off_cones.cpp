@@ -2,7 +2,7 @@
 // removes no feature, and comes first where a backend cannot switch cones itself.
 #include <cmath>
 
-#include "core/lower/bridges/bridges.hpp"
+#include "core/bridges/bridges.hpp"
 #include "switchyard/problem_update.hpp"
 
 namespace switchyard {

@@ -1,4 +1,4 @@
-// core/lower/builder.hpp - a sy_problem from triplets: structure once, numbers often.
+// core/problem/builder.hpp - a sy_problem from triplets: structure once, numbers often.
 #pragma once
 
 #include <cstdint>

@@ -2,7 +2,7 @@
 // cone row's dual is its row's.
 #include <cmath>
 
-#include "core/lower/bridges/bridges.hpp"
+#include "core/bridges/bridges.hpp"
 
 namespace switchyard {
 namespace {

@@ -1,6 +1,6 @@
 // 2 s_0 s_1 >= |s_2|^2 becomes a second-order cone in rotated coordinates: see rotate_cones.hpp.
-#include "core/lower/bridges/bridges.hpp"
-#include "core/lower/bridges/rotate_cones.hpp"
+#include "core/bridges/bridges.hpp"
+#include "core/bridges/rotate_cones.hpp"
 
 namespace switchyard {
 

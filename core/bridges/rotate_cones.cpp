@@ -1,4 +1,4 @@
-#include "core/lower/bridges/rotate_cones.hpp"
+#include "core/bridges/rotate_cones.hpp"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-// core/lower/bridge.hpp - from a problem to one that a backend takes, and the way back.
+// core/bridges/bridge.hpp - from a problem to one that a backend takes, and the way back.
 //
 // A bridge is a pure map: the same problem gives the same image. It may append variables, and
 // relabel rows and cones; it never reorders or drops a variable, so bounds of variables pass
@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "core/lower/lowering.hpp"
+#include "core/problem/vectors.hpp"
 #include "switchyard/problem.hpp"
 
 namespace switchyard {

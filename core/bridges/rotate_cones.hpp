@@ -1,4 +1,4 @@
-// core/lower/bridges/rotate_cones.hpp - the map between the second-order cone and the rotated one.
+// core/bridges/rotate_cones.hpp - the map between the second-order cone and the rotated one.
 //
 // (s_0, s_1) -> ((s_0 + s_1) / sqrt2, (s_0 - s_1) / sqrt2) takes 2 s_0 s_1 >= |s_2|^2 to
 // s_0 >= |(s_1, s_2)| and back: it is orthogonal and its own inverse, so duals go the same way.
@@ -6,7 +6,7 @@
 
 #include <memory>
 
-#include "core/lower/bridge.hpp"
+#include "core/bridges/bridge.hpp"
 
 namespace switchyard {
 

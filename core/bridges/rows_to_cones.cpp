@@ -3,7 +3,7 @@
 // that of its lower side less that of its upper side.
 #include <cmath>
 
-#include "core/lower/bridges/bridges.hpp"
+#include "core/bridges/bridges.hpp"
 
 namespace switchyard {
 namespace {

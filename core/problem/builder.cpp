@@ -1,4 +1,4 @@
-#include "core/lower/builder.hpp"
+#include "core/problem/builder.hpp"
 
 #include <algorithm>
 #include <numeric>

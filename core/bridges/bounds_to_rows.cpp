@@ -2,7 +2,7 @@
 // a finite side, in order. Its row's dual is the bound's dual.
 #include <cmath>
 
-#include "core/lower/bridges/bridges.hpp"
+#include "core/bridges/bridges.hpp"
 
 namespace switchyard {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/lower/difference.hpp"
+#include "core/problem/difference.hpp"
 
 #include <algorithm>
 

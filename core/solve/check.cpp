@@ -1,0 +1,160 @@
+#include "core/solve/check.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "switchyard/boxes.hpp"
+#include "switchyard/cones.hpp"
+#include "switchyard/safe_bound.hpp"
+
+namespace switchyard {
+namespace {
+
+/// values = M x (+ g), and for each row the largest |term|.
+struct RowValues {
+  std::vector<double> value;
+  std::vector<double> largest;
+};
+
+RowValues Evaluate(const sy_csc* m, const double* g, std::int32_t rows,
+                   const std::vector<double>& x) {
+  RowValues r;
+  r.value.assign(static_cast<std::size_t>(rows), 0.0);
+  if (g != nullptr) r.value.assign(g, g + rows);
+  r.largest.resize(r.value.size());
+  std::transform(r.value.begin(), r.value.end(), r.largest.begin(),
+                 [](double v) { return std::abs(v); });
+  for (std::int32_t j = 0; m != nullptr && j < m->cols; ++j) {
+    for (std::int32_t k = m->start[j]; k < m->start[j + 1]; ++k) {
+      const auto i = static_cast<std::size_t>(m->row[k]);
+      const double term = m->value[k] * x[static_cast<std::size_t>(j)];
+      r.value[i] += term;
+      r.largest[i] = std::max(r.largest[i], std::abs(term));
+    }
+  }
+  return r;
+}
+
+double Outside(double value, double lower, double upper) {
+  return std::max({0.0, lower - value, value - upper});
+}
+
+/// Side of a recession: 0 where the bound is finite.
+double Recession(double bound) { return std::isfinite(bound) ? 0 : bound; }
+
+double ConeViolation(const sy_problem& problem, const RowValues& rows) {
+  double worst = 0;
+  std::size_t at = 0;
+  for (std::int32_t c = 0; c < problem.num_cones; ++c) {
+    const sy_cone& cone = problem.cones[c];
+    const auto dim = static_cast<std::size_t>(cone.dim);
+    if (cone.kind == SY_CONE_ZERO || cone.kind == SY_CONE_NONNEGATIVE) {  // a row each
+      for (std::size_t i = at; i < at + dim; ++i) {
+        const double v = FactsOf(cone.kind).violation(&rows.value[i], 1, 0);
+        worst = std::max(worst, v / (1 + rows.largest[i]));
+      }
+    } else {
+      const auto first = rows.largest.begin() + static_cast<std::ptrdiff_t>(at);
+      const double largest = *std::max_element(first, first + cone.dim);
+      const double v = FactsOf(cone.kind).violation(&rows.value[at], cone.dim, cone.parameter);
+      worst = std::max(worst, v / (1 + largest));
+    }
+    at += dim;
+  }
+  return worst;
+}
+
+}  // namespace
+
+double RelativeViolation(const sy_problem& problem, const std::vector<double>& x) {
+  double worst = 0;
+  for (std::size_t j = 0; j < x.size(); ++j) {
+    if (problem.x_lower != nullptr) {
+      const double v = Outside(x[j], problem.x_lower[j], problem.x_upper[j]);
+      worst = std::max(worst, v / (1 + std::abs(x[j])));
+    }
+    if (problem.integer != nullptr && problem.integer[j] != 0) {
+      const double v = std::abs(x[j] - std::round(x[j]));
+      worst = std::max(worst, v * kSupported / kIntegral);
+    }
+  }
+  const RowValues rows = Evaluate(problem.A, nullptr, problem.num_rows, x);
+  for (std::size_t i = 0; i < rows.value.size(); ++i) {
+    const double v = Outside(rows.value[i], problem.row_lower[i], problem.row_upper[i]);
+    worst = std::max(worst, v / (1 + rows.largest[i]));
+  }
+  const RowValues cones = Evaluate(problem.F, problem.g, problem.num_cone_rows, x);
+  return std::max(worst, ConeViolation(problem, cones));
+}
+
+DualCheck CheckDuals(const sy_problem& problem, const Vectors& v, double cutoff) {
+  const auto data = [](const std::vector<double>& values) {
+    return values.empty() ? nullptr : values.data();
+  };
+  // A cutoff just above the objective: the boxes then hold an optimal point.
+  const Boxes boxes = ProvenBoxes(problem, cutoff + 1e-6 * (1 + std::abs(cutoff)));
+  const double* lower = boxes.infeasible ? problem.x_lower : boxes.lower.data();
+  const double* upper = boxes.infeasible ? problem.x_upper : boxes.upper.data();
+  const SafeBound safe =
+      SafeDualBound(problem, data(v.x), data(v.row_dual), data(v.cone_dual), lower, upper);
+  return {std::min(safe.value, cutoff), safe.estimate, safe.open_residual, safe.open_column};
+}
+
+bool ProvesInfeasible(const sy_problem& problem, const Vectors& v) {
+  double scale = 0;
+  for (const auto* duals : {&v.row_dual, &v.cone_dual}) {
+    for (const double y : *duals) scale = std::max(scale, std::abs(y));
+  }
+  for (const double y : v.x_dual) scale = std::max(scale, std::abs(y));
+  if (scale == 0 || !std::isfinite(scale)) return false;
+  std::vector<double> rows = v.row_dual;
+  std::vector<double> cones = v.cone_dual;
+  for (auto* duals : {&rows, &cones}) {
+    for (double& y : *duals) y /= scale;
+  }
+  // Without an objective any positive bound is a contradiction.
+  sy_problem no_objective = problem;
+  const std::vector<double> zero(static_cast<std::size_t>(problem.num_vars), 0.0);
+  no_objective.P = nullptr;
+  no_objective.q = zero.data();
+  no_objective.offset = 0;
+  const Boxes boxes = ProvenBoxes(no_objective);
+  if (boxes.infeasible) return true;
+  const SafeBound safe =
+      SafeDualBound(no_objective, nullptr, rows.empty() ? nullptr : rows.data(),
+                    cones.empty() ? nullptr : cones.data(), boxes.lower.data(), boxes.upper.data());
+  if (safe.value > 0) return true;
+  return safe.open_residual <= 1e-7 && safe.estimate > 1e-7;
+}
+
+bool IsUnboundedRay(const sy_problem& problem, const Vectors& v) {
+  double scale = 0;
+  for (const double x : v.x) scale = std::max(scale, std::abs(x));
+  if (scale == 0 || !std::isfinite(scale)) return false;
+  std::vector<double> ray = v.x;
+  for (double& x : ray) x /= scale;
+  double slope = 0;
+  for (std::size_t j = 0; j < ray.size(); ++j) slope += problem.q[j] * ray[j];
+  if (slope >= 0) return false;
+  double worst = 0;
+  for (std::size_t j = 0; problem.x_lower != nullptr && j < ray.size(); ++j) {
+    worst = std::max(worst,
+                     Outside(ray[j], Recession(problem.x_lower[j]), Recession(problem.x_upper[j])));
+  }
+  const RowValues rows = Evaluate(problem.A, nullptr, problem.num_rows, ray);
+  for (std::size_t i = 0; i < rows.value.size(); ++i) {
+    const double outside =
+        Outside(rows.value[i], Recession(problem.row_lower[i]), Recession(problem.row_upper[i]));
+    worst = std::max(worst, outside / (1 + rows.largest[i]));
+  }
+  worst = std::max(
+      worst, ConeViolation(problem, Evaluate(problem.F, nullptr, problem.num_cone_rows, ray)));
+  if (problem.P != nullptr) {
+    std::vector<double> curved(ray.size(), 0.0);
+    SymmetricMultiplyAdd(*problem.P, 1, ray.data(), curved.data());
+    for (const double c : curved) worst = std::max(worst, std::abs(c));
+  }
+  return worst <= kSupported * std::min(1.0, -slope) || worst <= 1e-9;
+}
+
+}  // namespace switchyard

@@ -1,0 +1,100 @@
+#include "switchyard/solve/result.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "switchyard/error.hpp"
+
+namespace switchyard {
+namespace {
+
+constexpr std::array<std::string_view, 20> kTerminations = {
+    "not_solved",         "optimal",         "locally_optimal",
+    "infeasible",         "unbounded",       "infeasible_or_unbounded",
+    "locally_infeasible", "iteration_limit", "time_limit",
+    "node_limit",         "cancelled",       "numerical_trouble",
+    "evaluation_failed",  "cutoff",          "target",
+    "memory_limit",       "no_path",         "restrictions_failed",
+    "no_backend",         "backend_failed"};
+static_assert(static_cast<int>(Termination::kRestrictionsFailed) == SY_RESTRICTIONS_FAILED);
+static_assert(static_cast<int>(Termination::kBackendFailed) + 1 == kTerminations.size());
+
+constexpr std::array<std::string_view, 5> kKinds = {"none", "feasible", "nearly_feasible",
+                                                    "infeasible", "ray"};
+
+}  // namespace
+
+std::string_view to_string(Termination termination) {
+  return kTerminations[static_cast<std::size_t>(termination)];
+}
+
+std::string_view to_string(PointKind kind) { return kKinds[static_cast<std::size_t>(kind)]; }
+
+bool MathematicalProgramResult::is_success() const {
+  return primal == PointKind::kFeasible &&
+         (termination == Termination::kOptimal || termination == Termination::kLocallyOptimal ||
+          termination == Termination::kTarget);
+}
+
+double MathematicalProgramResult::gap() const {
+  if (std::isnan(objective) || std::isnan(bound)) return std::nan("");
+  return std::abs(objective - bound) / std::max(1e-10, std::abs(objective));
+}
+
+int MathematicalProgramResult::IndexOf(Variable variable) const {
+  const auto place = std::lower_bound(variables_.begin(), variables_.end(), variable);
+  if (place == variables_.end() || *place != variable) return -1;
+  return index_[static_cast<std::size_t>(place - variables_.begin())];
+}
+
+double MathematicalProgramResult::GetSolution(Variable variable) const {
+  Require(x_.size() > 0, "there is no solution to read: the solve ended with ",
+          to_string(termination));
+  const int j = IndexOf(variable);
+  Require(j >= 0, "GetSolution: the variable with id ", variable.get_id(),
+          " is not of the program that was solved");
+  return x_[j];
+}
+
+Eigen::VectorXd MathematicalProgramResult::GetDualSolution(
+    const Binding<Constraint>& constraint) const {
+  for (const auto& [binding, values] : duals_) {
+    if (binding == constraint) return values;
+  }
+  Refuse("there is no dual of ", constraint.evaluator()->Name(), ": ",
+         duals_.empty() ? "the backend gave none" : "it was not in the program that was solved");
+}
+
+std::vector<Binding<Constraint>> MathematicalProgramResult::GetInfeasibleConstraints(
+    const MathematicalProgram& program, double tolerance) const {
+  std::vector<Binding<Constraint>> violated;
+  for (const auto& binding : program.GetAllConstraints()) {
+    if (!program.CheckSatisfied(binding, x_, tolerance)) violated.push_back(binding);
+  }
+  return violated;
+}
+
+std::vector<std::string> MathematicalProgramResult::GetInfeasibleConstraintNames(
+    const MathematicalProgram& program, double tolerance) const {
+  std::vector<std::string> names;
+  for (const auto& binding : GetInfeasibleConstraints(program, tolerance)) {
+    const Constraint& constraint = *binding.evaluator();
+    const Eigen::VectorXd y = program.EvalBinding(binding, x_);
+    for (int i = 0; i < constraint.num_constraints(); ++i) {
+      const bool boxed = constraint.lower_bound().size() == y.size();
+      if (!boxed) {
+        names.push_back(constraint.Name());
+        break;
+      }
+      const double lower = constraint.lower_bound()[i];
+      const double upper = constraint.upper_bound()[i];
+      if (y[i] < lower - tolerance || y[i] > upper + tolerance) {
+        names.push_back(Text(constraint.RowName(i), ": ", lower, " <= ", y[i], " <= ", upper));
+      }
+    }
+  }
+  return names;
+}
+
+}  // namespace switchyard

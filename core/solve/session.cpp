@@ -1,0 +1,262 @@
+#include "core/solve/session.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <thread>
+
+#include "core/host/facade.hpp"
+#include "core/problem/difference.hpp"
+#include "switchyard/error.hpp"
+
+namespace switchyard {
+namespace {
+
+/// Runs `body` and adds its time to `seconds`.
+template <class Body>
+auto Timed(double& seconds, Body&& body) {
+  struct Clock {
+    double& seconds;
+    std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+    ~Clock() {
+      seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    }
+  } const clock{seconds};
+  return body();
+}
+
+std::string TextOf(const SolverOptions::OptionValue& value) {
+  return std::visit([](const auto& v) { return Text(v); }, value);
+}
+
+struct Setting {
+  std::uint64_t bit;
+  const char* name;
+  bool set;
+};
+
+/// What was asked for of a backend that does not keep it, a sentence each.
+std::vector<std::string> Unkept(const SolverOptions& o, const sy_solver& facade) {
+  const Setting settings[] = {
+      {SY_HONORS_THREADS, "the number of threads", o.threads > 0},
+      {SY_HONORS_SECONDS, "the time limit", std::isfinite(o.time_limit)},
+      {SY_HONORS_ITERATIONS, "the iteration limit",
+       o.iteration_limit != std::numeric_limits<std::int64_t>::max()},
+      {SY_HONORS_NODES, "the node limit", o.node_limit != std::numeric_limits<std::int64_t>::max()},
+      {SY_HONORS_CUTOFF, "the cutoff", !std::isnan(o.cutoff)},
+      {SY_HONORS_TARGET, "the target", !std::isnan(o.target)},
+      {SY_HONORS_FEASIBILITY, "the feasibility tolerance", !std::isnan(o.feasibility_tolerance)},
+      {SY_HONORS_OPTIMALITY, "the optimality tolerance", !std::isnan(o.optimality_tolerance)},
+      {SY_HONORS_INTEGRALITY, "the integrality tolerance", !std::isnan(o.integrality_tolerance)},
+      {SY_HONORS_SEED, "the seed", o.seed != 0},
+      {SY_HONORS_CANCELLED, "cancelling", o.cancelled != nullptr},
+  };
+  constexpr std::uint64_t kWatched =
+      SY_HONORS_ITERATIONS | SY_HONORS_NODES | SY_HONORS_CUTOFF | SY_HONORS_TARGET;
+  std::vector<std::string> notes;
+  for (const Setting& s : settings) {
+    if (!s.set || (facade.honors & s.bit) != 0) continue;
+    const bool watched = (kWatched & s.bit) != 0;
+    notes.push_back(Text(facade.id, " does not keep ", s.name,
+                         watched ? " itself: it is kept as far as it reports its progress" : ""));
+  }
+  return notes;
+}
+
+}  // namespace
+
+double SolverSession::State::Spent() const {
+  return std::chrono::duration<double>(Clock::now() - began_).count();
+}
+
+MathematicalProgramResult SolverSession::State::Solve(const std::optional<Eigen::VectorXd>& guess) {
+  began_ = Clock::now();
+  MathematicalProgramResult result;
+  const std::uint64_t kinds = Timed(result.seconds.lower, [&] { return Lower(result); });
+  if (lowering->crossed_variable() >= 0) {
+    result.termination = Termination::kInfeasible;
+    result.message = "the bounds of " + program.VariableName(lowering->crossed_variable()) +
+                     " exclude each other";
+  } else if ((instance != nullptr && (kinds & kStructureChanged) == 0) || Choose(result)) {
+    try {
+      SendChanges(kinds);
+      Start(guess);
+      Run(result);
+    } catch (const BackendError& e) {
+      result.termination = Termination::kBackendFailed;
+      result.message = lowering->WithNames(program, e.what());
+      instance.reset();  // what it holds now is not known
+    }
+    Describe(result);
+  }
+  result.considered = considered;
+  result.seconds.total = Spent();
+  if (thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));
+  return result;
+}
+
+std::uint64_t SolverSession::State::Lower(MathematicalProgramResult&) {
+  if (lowering.has_value()) return lowering->Refresh(program);
+  lowering.emplace(program);
+  return 0;
+}
+
+bool SolverSession::State::Choose(MathematicalProgramResult& result) {
+  instance.reset();
+  backend = nullptr;
+  considered.clear();
+  std::istringstream list(names);
+  for (std::string name; std::getline(list, name, ',');) {
+    if (name.empty() || host.Find(name) != nullptr) continue;
+    std::vector<std::string> known;
+    for (const Backend* one : host.backends()) known.push_back(one->short_name);
+    const std::string near = NearestName(name, known);
+    considered.push_back({name, false,
+                          near.empty() ? "there is none of that name"
+                                       : "there is none of that name; the nearest is " + near});
+  }
+  for (const Candidate& candidate : host.Rank(lowering->problem().view(), names)) {
+    std::string why = candidate.why;
+    const bool chosen = backend == nullptr && candidate.suitable && TryCandidate(candidate, why);
+    if (!chosen && backend != nullptr && candidate.suitable) why = "comes later in the order";
+    considered.push_back({candidate.backend->id, chosen, lowering->WithNames(program, why)});
+  }
+  if (backend != nullptr) return true;
+  result.termination = Termination::kNoBackend;
+  for (const Considered& one : considered) {
+    result.message += (result.message.empty() ? "" : "; ") + one.solver + ": " + one.why;
+  }
+  if (result.message.empty()) result.message = "no backend is there";
+  if (!names.empty()) {
+    std::string others;
+    for (const Candidate& candidate : host.Rank(lowering->problem().view())) {
+      if (candidate.suitable)
+        others += (others.empty() ? "" : ", ") + candidate.backend->short_name;
+    }
+    result.message +=
+        others.empty() ? "; no other backend would serve" : "; would serve: " + others;
+  }
+  return false;
+}
+
+bool SolverSession::State::TryCandidate(const Candidate& candidate, std::string& why) {
+  const sy_solver& table = *host.Facade(*candidate.backend);
+  try {
+    auto fresh = std::make_unique<Instance>(table, *host.table());
+    SetOptions(*candidate.backend, *fresh);
+    constexpr std::uint64_t kNumbers = SY_UPDATES_BOUNDS | SY_UPDATES_VECTORS | SY_UPDATES_VALUES;
+    fresh->Load(lowering->problem().view(), keeps ? kNumbers : 0);
+    instance = std::move(fresh);
+    backend = candidate.backend;
+    return true;
+  } catch (const BackendError& e) {
+    if (e.code() == SY_E_ARGUMENT) throw InvalidArgument(e.what());
+    why = e.what();
+    return false;
+  }
+}
+
+void SolverSession::State::SetOptions(const Backend& chosen, Instance& fresh) const {
+  for (const auto& [name, values] : options.options) {
+    if (!name.empty() && name != chosen.id && name != chosen.short_name) continue;
+    for (const auto& [key, value] : values) {
+      const std::string text = TextOf(value);
+      const sy_option* option = FindOption(chosen.facts, key);
+      sy_value given{};
+      given.type = SY_TEXT;
+      given.as.text = text.c_str();
+      fresh.SetOption(key, option != nullptr ? ParseOptionValue(*option, text) : given);
+    }
+  }
+}
+
+void SolverSession::State::SendChanges(std::uint64_t kinds) {
+  if (kinds == 0 || (kinds & kStructureChanged) != 0) return;
+  sy_update update{};
+  update.size = sizeof update;
+  update.whole = static_cast<std::uint32_t>(kinds);
+  update.problem = &lowering->problem().view();
+  instance->Update(update);
+}
+
+void SolverSession::State::Start(const std::optional<Eigen::VectorXd>& guess) {
+  const Eigen::VectorXd x = guess.value_or(program.initial_guess());
+  Require(x.size() == program.num_vars(), "the initial guess needs ", program.num_vars(),
+          " entries, got ", x.size());
+  if (x.array().isNaN().all()) return;
+  const std::vector<double> all = lowering->Extend(program, x);
+  sy_start start{};
+  start.size = sizeof start;
+  start.x = all.data();
+  instance->WarmStart(start);
+}
+
+sy_control SolverSession::State::Control() {
+  const auto in_problem_sense = [&](double value, double unset) {
+    if (std::isnan(value)) return unset;
+    return lowering->maximize() ? -value : value;
+  };
+  sy_control control{};
+  control.size = sizeof control;
+  control.flags = keeps ? std::uint32_t{SY_CONTINUE} : 0;
+  control.threads = options.threads > 0
+                        ? options.threads
+                        : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  control.verbosity = options.verbosity;
+  control.seconds = std::max(0.0, options.time_limit - Spent());
+  control.iterations = options.iteration_limit;
+  control.nodes = options.node_limit;
+  control.cutoff = in_problem_sense(options.cutoff, kInfinity);
+  control.target = in_problem_sense(options.target, -kInfinity);
+  control.feasibility = options.feasibility_tolerance;
+  control.optimality = options.optimality_tolerance;
+  control.integrality = options.integrality_tolerance;
+  control.absolute_gap = options.absolute_gap;
+  control.relative_gap = options.relative_gap;
+  control.seed = options.seed;
+  control.context = this;
+  control.cancelled = [](void* context) noexcept -> std::int32_t {
+    const auto* self = static_cast<const State*>(context);
+    const bool asked = self->options.cancelled != nullptr && self->options.cancelled->load();
+    return asked || self->thrown_ != nullptr ? 1 : 0;
+  };
+  if (!options.progress) return control;
+  control.progress = [](void* context, const sy_progress* p) noexcept -> std::int32_t {
+    auto* self = static_cast<State*>(context);
+    const double sign = self->lowering->maximize() ? -1 : 1;
+    try {
+      return self->options.progress({p->seconds, p->iteration, p->nodes, p->open_nodes,
+                                     sign * p->objective, sign * p->bound, p->primal_residual,
+                                     p->dual_residual, p->incumbent != nullptr})
+                 ? 1
+                 : 0;
+    } catch (...) {
+      self->thrown_ = std::current_exception();
+      return 1;
+    }
+  };
+  return control;
+}
+
+void SolverSession::State::Run(MathematicalProgramResult& result) {
+  AnswerBuffers answer(lowering->problem().data());
+  const sy_control control = Control();
+  Timed(result.seconds.solve, [&] { instance->Solve(control, answer.raw); });
+  Timed(result.seconds.recover,
+        [&] { Recovery(program, *lowering, backend->facts, result).Write(answer); });
+}
+
+void SolverSession::State::Describe(MathematicalProgramResult& result) const {
+  result.solver = backend->id;
+  result.solver_version = host.Ready(*backend).version;
+  try {
+    for (const BridgeKind* kind : PlanFor(lowering->problem().view(), *backend)) {
+      result.bridges.emplace_back(kind->name);
+    }
+  } catch (const BackendError&) {  // no plan any more: what happened is in the message
+  }
+  const auto unkept = Unkept(options, *host.Facade(*backend));
+  result.notes.insert(result.notes.end(), unkept.begin(), unkept.end());
+}
+
+}  // namespace switchyard

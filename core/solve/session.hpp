@@ -1,0 +1,50 @@
+// core/solve/session.hpp - the road from a program to an answer, once or again and again.
+#pragma once
+
+#include <chrono>
+#include <exception>
+#include <memory>
+#include <optional>
+
+#include "core/host/instance.hpp"
+#include "core/lower/lowering.hpp"
+#include "core/solve/recovery.hpp"
+#include "switchyard/solve/solve.hpp"
+
+namespace switchyard {
+
+struct SolverSession::State {
+  State(const MathematicalProgram& p, std::string n, SolverOptions o, Host& h, bool k)
+      : program(p), names(std::move(n)), options(std::move(o)), keeps(k), host(h) {}
+
+  MathematicalProgramResult Solve(const std::optional<Eigen::VectorXd>& guess);
+
+  const MathematicalProgram& program;
+  const std::string names;
+  const SolverOptions options;
+  const bool keeps;  // updates may follow
+  Host& host;
+  std::optional<Lowering> lowering;
+  std::unique_ptr<Instance> instance;  // of the host's table over the chosen backend
+  const Backend* backend = nullptr;
+  std::vector<Considered> considered;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  std::uint64_t Lower(MathematicalProgramResult& result);
+  bool Choose(MathematicalProgramResult& result);
+  bool TryCandidate(const Candidate& candidate, std::string& why);
+  void SetOptions(const Backend& chosen, Instance& fresh) const;
+  void SendChanges(std::uint64_t kinds);
+  void Start(const std::optional<Eigen::VectorXd>& guess);
+  void Run(MathematicalProgramResult& result);
+  void Describe(MathematicalProgramResult& result) const;
+  [[nodiscard]] sy_control Control();
+  [[nodiscard]] double Spent() const;
+
+  Clock::time_point began_;
+  std::exception_ptr thrown_;  // by the user's progress function; rethrown after the solve
+};
+
+}  // namespace switchyard

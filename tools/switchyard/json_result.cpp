@@ -1,0 +1,108 @@
+#include "json_result.hpp"
+
+#include <sys/resource.h>
+
+#include <cmath>
+#include <fstream>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "switchyard/error.hpp"
+
+namespace switchyard::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Unknown is null, infinities are strings.
+Json Number(double value) {
+  if (std::isnan(value)) return nullptr;
+  if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
+  return value;
+}
+
+std::int64_t PeakMemoryBytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  constexpr std::int64_t kKibibyte = 1024;
+  return usage.ru_maxrss * kKibibyte;
+}
+
+void Write(const Json& json, const std::string& path) {
+  if (path == "-") {
+    std::cout << json.dump(2) << '\n' << std::flush;
+    return;
+  }
+  std::ofstream out(path);
+  out << json.dump(2) << '\n';
+  out.close();
+  Require(!out.fail(), path, ": the file cannot be written");
+}
+
+Json Seconds(const SolveTimes& t) {
+  return {{"read", t.read},   {"build", t.build},     {"lower", t.lower}, {"presolve", t.presolve},
+          {"solve", t.solve}, {"recover", t.recover}, {"total", t.total}};
+}
+
+}  // namespace
+
+void WriteResult(const MathematicalProgram& program, const MathematicalProgramResult& result,
+                 const std::string& path) {
+  Json json = {{"format", "result/1"}, {"command", "solve"}, {"name", program.name()}};
+  if (!result.solver.empty()) {
+    json["solver"] = result.solver;
+    json["solver_version"] = result.solver_version;
+  }
+  json["termination"] = to_string(result.termination);
+  json["primal"] = to_string(result.primal);
+  json["dual"] = to_string(result.dual);
+  json["message"] = result.message;
+  const bool has_point = result.primal != PointKind::kNone && result.primal != PointKind::kRay;
+  json["objective"] = Number(result.objective);
+  json["bound"] = Number(result.bound);
+  if (!std::isnan(result.gap())) json["gap"] = Number(result.gap());
+  if (has_point) {
+    const Violation& v = result.violation;
+    json["violation"] = {{"bounds", Number(v.bounds)},
+                         {"rows", Number(v.rows)},
+                         {"cones", Number(v.cones)},
+                         {"integrality", Number(v.integrality)},
+                         {"nonlinear", Number(v.nonlinear)}};
+  }
+  if (result.iterations >= 0) json["iterations"] = result.iterations;
+  if (result.nodes >= 0) json["nodes"] = result.nodes;
+  json["seconds"] = Seconds(result.seconds);
+  json["peak_memory_bytes"] = PeakMemoryBytes();
+  json["subsolvers"] = Json::array();
+  json["considered"] = Json::array();
+  for (const Considered& one : result.considered) {
+    json["considered"].push_back(
+        {{"solver", one.solver}, {"verdict", one.chosen ? "chosen" : "skipped"}, {"why", one.why}});
+  }
+  if (!result.bridges.empty()) json["bridges"] = result.bridges;
+  if (!result.notes.empty()) json["notes"] = result.notes;
+  Write(json, path);
+}
+
+void WriteSolution(const MathematicalProgram& program, const MathematicalProgramResult& result,
+                   const std::string& path) {
+  Json variables = Json::object();
+  const Eigen::VectorXd& x = result.get_x_val();
+  for (int j = 0; j < static_cast<int>(x.size()); ++j) {
+    variables[program.VariableName(j)] = Number(x[j]);
+  }
+  Json rows = Json::object();
+  if (result.has_duals()) {
+    const auto add = [&](const Binding<Constraint>& binding) {
+      const Eigen::VectorXd dual = result.GetDualSolution(binding);
+      for (int i = 0; i < static_cast<int>(dual.size()); ++i) {
+        rows[binding.evaluator()->RowName(i)] = Number(dual[i]);
+      }
+    };
+    for (const auto& binding : program.affine_constraints()) add(binding);
+    for (const auto& binding : program.cone_constraints()) add(binding);
+  }
+  Write({{"variables", std::move(variables)}, {"rows", std::move(rows)}}, path);
+}
+
+}  // namespace switchyard::cli
