@@ -33,7 +33,7 @@ class Includes(Tree):
             "include/switchyard/plugin.hpp": '#include "switchyard/abi.h"\n',
             "include/switchyard/solve/solve.hpp": '#include "switchyard/host/host.hpp"\n',
             "core/solve/solve.cpp": '#include "switchyard/lower/lower.hpp"\n',
-            "core/lower/bridges/norm.cpp": '#include "lower/bridge.hpp"\n',
+            "core/bridges/norm.cpp": '#include "problem/builder.hpp"\n',
             "plugins/clp/clp.cpp": '#include "coin/ClpSimplex.hpp"\n#include "switchyard/abi.h"\n',
             "tools/switchyard/main.cpp": '#include "core/io/mps.hpp"\n#include <Highs.h>\n',
         }), [])
@@ -52,12 +52,12 @@ class Includes(Tree):
 
     def test_the_host_applies_bridges_and_neither_knows_the_model(self):
         self.assertEqual(self.found({
-            "core/host/facade.hpp": '#include "core/lower/bridge.hpp"\n',
-            "core/lower/lowering.cpp": '#include "core/lower/vectors.hpp"\n'}), [])
+            "core/host/facade.hpp": '#include "core/bridges/bridge.hpp"\n',
+            "core/lower/lowering.cpp": '#include "core/problem/vectors.hpp"\n'}), [])
         self.assert_only(
-            {"core/lower/bridges/rows.cpp": '#include "core/lower/lowering.hpp"\n'},
-            "core/lower/bridges/rows.cpp:1: includes core/lower/lowering.hpp; bridges may know the "
-            "shared headers alone, not lower")
+            {"core/bridges/rows.cpp": '#include "core/lower/lowering.hpp"\n'},
+            "core/bridges/rows.cpp:1: includes core/lower/lowering.hpp; bridges may know linalg, "
+            "problem, not lower")
 
     def test_it_holds_for_public_headers_and_for_includes_from_the_folder_of_core(self):
         self.assertEqual(len(self.found({

@@ -17,21 +17,19 @@ SHARED = {"abi.h", "hints.h", "plugin.hpp", "problem.hpp", "problem_update.hpp",
           "safe_bound.hpp", "arcs.hpp"}
 
 # Inside core, each part and the parts it may know. `abi` are the shared headers, known to all.
-# `bridges` are those files of lower that map a sy_problem to a sy_problem: the host applies them for
-# each backend, and neither knows the model.
+# Bridges map a sy_problem to a sy_problem: the host applies them for each backend, and neither knows
+# the model.
 CORE_KNOWS = {
     "linalg": set(),
-    "bridges": set(),
+    "problem": {"linalg"},
+    "bridges": {"linalg", "problem"},
+    "host": {"linalg", "problem", "bridges"},
     "model": {"linalg"},
-    "lower": {"linalg", "bridges", "model"},
-    "host": {"bridges"},
+    "lower": {"linalg", "problem", "model"},
     "io": {"linalg", "model"},
-    "solve": {"linalg", "bridges", "model", "lower", "host"},
-    "sets": {"linalg", "bridges", "model", "lower", "host", "solve"},
-    "gcs": {"linalg", "bridges", "model", "lower", "host", "solve", "sets"},
-    "trajectory": {"linalg", "bridges", "model", "lower", "host", "solve", "sets", "gcs"},
 }
-BRIDGES = re.compile(r"lower/(bridges/.*|(bridge|vectors|difference)\.[ch]pp)")
+for above in ("solve", "sets", "gcs", "trajectory"):
+    CORE_KNOWS[above] = set(CORE_KNOWS) - {"io"}
 
 # Headers of solver libraries: core names no solver.
 SOLVER_HEADERS = re.compile(
@@ -55,25 +53,20 @@ def sources(tree):
             yield path, inside
 
 
-def part_of(place):
-    """The part of core for a place below core/ or include/switchyard/; None where it is in none."""
-    if BRIDGES.fullmatch(place):
-        return "bridges"
-    return place.split("/")[0] if "/" in place else None
-
-
 def part_of_core(inside):
     """The part of core that a file belongs to, by its folder; None outside core."""
-    for folder in ("core/", "include/switchyard/"):
-        if inside.as_posix().startswith(folder):
-            return part_of(inside.as_posix().removeprefix(folder))
+    parts = inside.parts
+    if parts[0] == "core" and len(parts) > 2:
+        return parts[1]
+    if parts[:2] == ("include", "switchyard") and len(parts) > 3:
+        return parts[2]
     return None
 
 
 def part_included(header):
     """The part of core that an include reaches; None for a shared or a foreign header."""
-    part = part_of(header.removeprefix("switchyard/").removeprefix("core/"))
-    return part if part in CORE_KNOWS else None
+    names = header.removeprefix("switchyard/").removeprefix("core/").split("/")
+    return names[0] if len(names) > 1 and names[0] in CORE_KNOWS else None
 
 
 def check_shared(header, inside):
