@@ -43,7 +43,11 @@ inline void TakeWhole(const sy_update& update, ProblemData& d) {
       d.q.assign(static_cast<std::size_t>(given.num_vars), 0.0);
     }
     d.offset = given.offset;
-    if (given.g != nullptr) d.g.assign(given.g, given.g + given.num_cone_rows);
+    if (given.g != nullptr) {
+      d.g.assign(given.g, given.g + given.num_cone_rows);
+    } else {
+      d.g.assign(static_cast<std::size_t>(given.num_cone_rows), 0.0);
+    }
   }
   if ((update.whole & SY_UPDATES_VALUES) != 0) {
     CopyValues(given.P, d.P, "P has another pattern than the loaded one");
@@ -173,6 +177,7 @@ inline void AppendRows(const sy_more& more, ProblemData& d) {
 inline void Problem::Apply(const sy_update& update) {
   using namespace problem_detail;
   CheckSingles(update, data_);
+  Need(update.whole == 0 || update.problem != nullptr, "whole sections need a problem");
   const bool singles_alone = update.problem == nullptr && update.num_gone_rows == 0 &&
                              update.num_gone_cones == 0 && update.more == nullptr;
   if (singles_alone) {  // what branch and bound does at every node: no copy
