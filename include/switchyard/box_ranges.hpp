@@ -49,7 +49,8 @@ struct Activity {
       infinite += 1;
     }
   }
-  /// More than what a sum of `count` terms of three operations each, and of `side`, rounded.
+  /// More than what a sum of `count` terms of three operations each, its difference from `side`
+  /// and a division after that rounded; 0 where all is 0.
   [[nodiscard]] double Slack(std::int32_t count, double side) const {
     return (count + 8) * DBL_EPSILON * (size + std::abs(side));
   }
@@ -80,12 +81,14 @@ class Ranges {
     if (lhs - side > kCrossing * std::max(1.0, std::abs(side))) boxes_.infeasible = true;
   }
   void Cut(std::int32_t j, double v) {
+    if (v >= upper(j)) return;
     if (IsInteger(j)) v = std::floor(v + kIntegral * std::max(1.0, std::abs(v)));
     if (v < upper(j) && Accept(v, upper(j), lower(j), lower(j) - v)) {
       boxes_.upper[static_cast<std::size_t>(j)] = v;
     }
   }
   void Raise(std::int32_t j, double v) {
+    if (v <= lower(j)) return;
     if (IsInteger(j)) v = std::ceil(v - kIntegral * std::max(1.0, std::abs(v)));
     if (v > lower(j) && Accept(v, lower(j), upper(j), v - upper(j))) {
       boxes_.lower[static_cast<std::size_t>(j)] = v;

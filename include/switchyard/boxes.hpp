@@ -155,9 +155,9 @@ class Propagation {
       const double rest = std::isfinite(own) ? least.sum - own : least.sum;
       const double room = (side - rest + slack) / a;
       if (a > 0) {
-        box_.Cut(j, std::nextafter(room, kInfinity));
+        box_.Cut(j, room);
       } else {
-        box_.Raise(j, std::nextafter(room, -kInfinity));
+        box_.Raise(j, room);
       }
     }
   }
@@ -229,7 +229,8 @@ class Propagation {
 
 /// Boxes that hold every feasible point with an objective of at most `cutoff`, in time linear in
 /// the nonzeros for each pass; at most `passes`, fewer where one narrows nothing by a thousandth.
-/// Infinite where no finite end is proven. All rounding is outward; an integer's ends are integers.
+/// Infinite where no finite end is proven. All rounding is outward (underflow aside); an integer's
+/// ends are integers.
 ///
 /// A bound found with boxes that used a cutoff holds where the optimum is below it: the bound on
 /// the optimum is min(cutoff, bound). Infeasible then means: no point is at or below the cutoff.
