@@ -42,49 +42,58 @@ double Outside(double value, double lower, double upper) {
 /// Side of a recession: 0 where the bound is finite.
 double Recession(double bound) { return std::isfinite(bound) ? 0 : bound; }
 
-double ConeViolation(const sy_problem& problem, const RowValues& rows) {
-  double worst = 0;
+/// The worst violations so far: each relative to its own terms, and absolute.
+struct Worst {
+  double relative = 0;
+  double absolute = 0;
+  double largest_term = 0;
+
+  void See(double violation, double own_term) {
+    relative = std::max(relative, violation / (1 + own_term));
+    absolute = std::max(absolute, violation);
+    largest_term = std::max(largest_term, own_term);
+  }
+};
+
+void SeeCones(const sy_problem& problem, const RowValues& rows, Worst& worst) {
   std::size_t at = 0;
   for (std::int32_t c = 0; c < problem.num_cones; ++c) {
     const sy_cone& cone = problem.cones[c];
     const auto dim = static_cast<std::size_t>(cone.dim);
     if (cone.kind == SY_CONE_ZERO || cone.kind == SY_CONE_NONNEGATIVE) {  // a row each
       for (std::size_t i = at; i < at + dim; ++i) {
-        const double v = FactsOf(cone.kind).violation(&rows.value[i], 1, 0);
-        worst = std::max(worst, v / (1 + rows.largest[i]));
+        worst.See(FactsOf(cone.kind).violation(&rows.value[i], 1, 0), rows.largest[i]);
       }
     } else {
       const auto first = rows.largest.begin() + static_cast<std::ptrdiff_t>(at);
-      const double largest = *std::max_element(first, first + cone.dim);
-      const double v = FactsOf(cone.kind).violation(&rows.value[at], cone.dim, cone.parameter);
-      worst = std::max(worst, v / (1 + largest));
+      worst.See(FactsOf(cone.kind).violation(&rows.value[at], cone.dim, cone.parameter),
+                *std::max_element(first, first + cone.dim));
     }
     at += dim;
   }
-  return worst;
 }
 
 }  // namespace
 
 double RelativeViolation(const sy_problem& problem, const std::vector<double>& x) {
-  double worst = 0;
+  Worst worst;
+  double integrality = 0;
   for (std::size_t j = 0; j < x.size(); ++j) {
     if (problem.x_lower != nullptr) {
-      const double v = Outside(x[j], problem.x_lower[j], problem.x_upper[j]);
-      worst = std::max(worst, v / (1 + std::abs(x[j])));
+      worst.See(Outside(x[j], problem.x_lower[j], problem.x_upper[j]), std::abs(x[j]));
     }
     if (problem.integer != nullptr && problem.integer[j] != 0) {
-      const double v = std::abs(x[j] - std::round(x[j]));
-      worst = std::max(worst, v * kSupported / kIntegral);
+      integrality = std::max(integrality, std::abs(x[j] - std::round(x[j])));
     }
   }
   const RowValues rows = Evaluate(problem.A, nullptr, problem.num_rows, x);
   for (std::size_t i = 0; i < rows.value.size(); ++i) {
-    const double v = Outside(rows.value[i], problem.row_lower[i], problem.row_upper[i]);
-    worst = std::max(worst, v / (1 + rows.largest[i]));
+    worst.See(Outside(rows.value[i], problem.row_lower[i], problem.row_upper[i]), rows.largest[i]);
   }
-  const RowValues cones = Evaluate(problem.F, problem.g, problem.num_cone_rows, x);
-  return std::max(worst, ConeViolation(problem, cones));
+  SeeCones(problem, Evaluate(problem.F, problem.g, problem.num_cone_rows, x), worst);
+  const double by_norm =
+      worst.absolute / (1 + worst.largest_term) * (kSupported / kSupportedByNorm);
+  return std::max(std::min(worst.relative, by_norm), integrality * kSupported / kIntegral);
 }
 
 DualCheck CheckDuals(const sy_problem& problem, const Vectors& v, double cutoff) {
@@ -95,9 +104,12 @@ DualCheck CheckDuals(const sy_problem& problem, const Vectors& v, double cutoff)
   const Boxes boxes = ProvenBoxes(problem, cutoff + 1e-6 * (1 + std::abs(cutoff)));
   const double* lower = boxes.infeasible ? problem.x_lower : boxes.lower.data();
   const double* upper = boxes.infeasible ? problem.x_upper : boxes.upper.data();
-  const SafeBound safe =
-      SafeDualBound(problem, data(v.x), data(v.row_dual), data(v.cone_dual), lower, upper);
-  return {std::min(safe.value, cutoff), safe.estimate, safe.open_residual, safe.open_column};
+  const auto bound_on = [&](const double* l, const double* u) {
+    return SafeDualBound(problem, data(v.x), data(v.row_dual), data(v.cone_dual), l, u);
+  };
+  const SafeBound proven = bound_on(lower, upper);
+  const SafeBound plain = bound_on(nullptr, nullptr);
+  return {std::min(proven.value, cutoff), plain.estimate, plain.open_residual, proven.open_column};
 }
 
 bool ProvesInfeasible(const sy_problem& problem, const Vectors& v) {
@@ -136,25 +148,24 @@ bool IsUnboundedRay(const sy_problem& problem, const Vectors& v) {
   double slope = 0;
   for (std::size_t j = 0; j < ray.size(); ++j) slope += problem.q[j] * ray[j];
   if (slope >= 0) return false;
-  double worst = 0;
+  Worst worst;
   for (std::size_t j = 0; problem.x_lower != nullptr && j < ray.size(); ++j) {
-    worst = std::max(worst,
-                     Outside(ray[j], Recession(problem.x_lower[j]), Recession(problem.x_upper[j])));
+    worst.See(Outside(ray[j], Recession(problem.x_lower[j]), Recession(problem.x_upper[j])), 0);
   }
   const RowValues rows = Evaluate(problem.A, nullptr, problem.num_rows, ray);
   for (std::size_t i = 0; i < rows.value.size(); ++i) {
-    const double outside =
-        Outside(rows.value[i], Recession(problem.row_lower[i]), Recession(problem.row_upper[i]));
-    worst = std::max(worst, outside / (1 + rows.largest[i]));
+    worst.See(
+        Outside(rows.value[i], Recession(problem.row_lower[i]), Recession(problem.row_upper[i])),
+        rows.largest[i]);
   }
-  worst = std::max(
-      worst, ConeViolation(problem, Evaluate(problem.F, nullptr, problem.num_cone_rows, ray)));
+  SeeCones(problem, Evaluate(problem.F, nullptr, problem.num_cone_rows, ray), worst);
   if (problem.P != nullptr) {
     std::vector<double> curved(ray.size(), 0.0);
     SymmetricMultiplyAdd(*problem.P, 1, ray.data(), curved.data());
-    for (const double c : curved) worst = std::max(worst, std::abs(c));
+    for (const double c : curved) worst.See(std::abs(c), 0);
   }
-  return worst <= kSupported * std::min(1.0, -slope) || worst <= 1e-9;
+  // The ray's largest entry is 1, its slope what it gains.
+  return worst.relative <= kSupported * std::min(1.0, -slope) || worst.relative <= 1e-9;
 }
 
 }  // namespace switchyard

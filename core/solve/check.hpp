@@ -10,23 +10,30 @@
 
 namespace switchyard {
 
-/// Relative to 1 + the largest term that meets in the row, cone or bound: what makes a point
-/// feasible, and what duals must leave open at the most to support an optimum.
+/// What makes a point feasible: violations relative to 1 + the largest term that meets in the row,
+/// cone or bound. What duals must show at the most to support an optimum.
 inline constexpr double kSupported = 1e-6;
 inline constexpr double kNearly = 1e-3;
+/// What makes a point feasible, too: violations relative to 1 + the largest term of the problem,
+/// in which interior-point methods measure.
+inline constexpr double kSupportedByNorm = 1e-8;
 /// How far from an integer a value may be; simplex codes leave 1e-6, and their scaling more.
 inline constexpr double kIntegral = 1e-5;
 
-/// The largest violation of x over bounds, rows and cones, each relative to 1 + its largest term;
-/// that of integrality is absolute, times kSupported / kIntegral.
+/// The largest violation of x over bounds, rows and cones, in units in which kSupported is the
+/// most that is feasible: each relative to 1 + its largest term or, where that is smaller, to
+/// 1 + the largest of all terms and kSupportedByNorm; that of integrality in units of kIntegral.
 double RelativeViolation(const sy_problem& problem, const std::vector<double>& x);
 
-/// What the duals prove about a convex problem without integers.
+/// What duals say about a convex problem without integers.
 struct DualCheck {
-  double bound = -std::numeric_limits<double>::infinity();     // proven; -infinity: nothing is
-  double estimate = std::numeric_limits<double>::quiet_NaN();  // were the open residual 0
-  double open_residual = 0;  // relative, on columns without a finite box
-  int open_column = -1;
+  /// Proven, on boxes that hold an optimal point; -infinity: nothing is.
+  double bound = -std::numeric_limits<double>::infinity();
+  /// The dual objective on the problem's own bounds, what is left of stationarity on open columns
+  /// (a wrong sign against an infinite side) left out: no bound, but what solvers go by.
+  double estimate = std::numeric_limits<double>::quiet_NaN();
+  double open_residual = 0;  // what was left out, relative
+  int open_column = -1;      // where the proof of `bound` ends; -1: nowhere
 };
 /// `cutoff`: the objective of a feasible point; the boxes are proven below it.
 DualCheck CheckDuals(const sy_problem& problem, const Vectors& v, double cutoff);

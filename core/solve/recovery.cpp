@@ -123,15 +123,14 @@ void Recovery::WriteBound(const AnswerBuffers& answer) {
   const auto apart = [&](double value) {
     return std::abs(InUserSense(result_.objective) - value) / (1 + std::abs(result_.objective));
   };
-  const double error = std::isfinite(check.bound)
-                           ? apart(check.bound)
-                           : std::max(apart(check.estimate), check.open_residual);
+  const double by_estimate = std::max(apart(check.estimate), check.open_residual);
+  const double error =
+      std::isfinite(check.bound) ? std::min(apart(check.bound), by_estimate) : by_estimate;
   result_.dual = KindOf(has_point ? error : check.open_residual);
   if (!std::isfinite(check.bound) && check.open_column >= 0 && has_point) {
     result_.notes.push_back(lowering_.WithNames(
         program_, Text("no bound is proven: x[", check.open_column,
-                       "] has no finite box, and its reduced cost is 0 only to rounding (",
-                       check.open_residual, " relative)")));
+                       "] has no finite box, and its reduced cost is 0 only to rounding")));
   }
 }
 
@@ -181,18 +180,23 @@ void Recovery::JudgeCertificates(const AnswerBuffers& answer) {
   if (answer.raw.dual == SY_CERTIFICATE) {
     const bool holds = ProvesInfeasible(problem, answer.vectors);
     result_.dual = holds ? PointKind::kRay : PointKind::kNone;
-    if (!holds) result_.notes.push_back("its certificate of infeasibility does not hold");
+    if (!holds && result_.termination == Termination::kInfeasible) {
+      Doubt("its certificate does not hold: the duals prove no contradiction");
+    }
   }
   if (answer.raw.primal == SY_CERTIFICATE) {
     const bool holds = IsUnboundedRay(problem, answer.vectors);
     result_.primal = holds ? PointKind::kRay : PointKind::kNone;
-    if (!holds) result_.notes.push_back("its ray does not show the problem unbounded");
+    if (!holds && result_.termination == Termination::kUnbounded) {
+      Doubt("its ray leaves the constraints, or gains nothing");
+    }
   }
 }
 
 void Recovery::Doubt(const std::string& why) {
   result_.notes.push_back(Text(backend_.id, " says ", to_string(result_.termination), "; ", why));
   result_.termination = Termination::kNumericalTrouble;
+  doubted_ = true;
 }
 
 void Recovery::JudgeOptimum(const AnswerBuffers& answer) {

@@ -33,6 +33,8 @@ class Recovery {
       : program_(program), lowering_(lowering), backend_(backend), result_(result) {}
 
   void Write(const AnswerBuffers& answer);
+  /// Did the backend claim what the check does not support?
+  [[nodiscard]] bool doubted() const { return doubted_; }
 
  private:
   void IndexVariables();
@@ -51,6 +53,7 @@ class Recovery {
   const Lowering& lowering_;
   const sy_solver& backend_;
   MathematicalProgramResult& result_;
+  bool doubted_ = false;
 };
 
 /// The absolute violations of x in the program.

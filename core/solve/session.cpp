@@ -238,12 +238,35 @@ sy_control SolverSession::State::Control() {
   return control;
 }
 
+// An answer that the check does not support is asked for once more, at a hundredth of the usual
+// tolerances, where the user set none and the backend keeps them.
 void SolverSession::State::Run(MathematicalProgramResult& result) {
+  constexpr std::uint64_t kTolerances = SY_HONORS_FEASIBILITY | SY_HONORS_OPTIMALITY;
+  constexpr double kTight = 1e-10;
+  sy_control control = Control();
+  const MathematicalProgramResult before = result;
+  const bool supported = RunOnce(control, result);
+  const bool may_tighten = std::isnan(control.feasibility) && std::isnan(control.optimality) &&
+                           (backend->facts.honors & kTolerances) == kTolerances;
+  if (supported || !may_tighten || Spent() >= options.time_limit) return;
+  control = Control();
+  control.feasibility = control.optimality = kTight;
+  MathematicalProgramResult again = before;
+  again.seconds = result.seconds;
+  const bool better = RunOnce(control, again);
+  result.seconds = again.seconds;
+  if (!better) return;
+  again.notes.push_back(Text("solved again at tolerances of ", kTight,
+                             ", since the first answer was not supported to 1e-6"));
+  result = std::move(again);
+}
+
+bool SolverSession::State::RunOnce(const sy_control& control, MathematicalProgramResult& result) {
   AnswerBuffers answer(lowering->problem().data());
-  const sy_control control = Control();
   Timed(result.seconds.solve, [&] { instance->Solve(control, answer.raw); });
-  Timed(result.seconds.recover,
-        [&] { Recovery(program, *lowering, backend->facts, result).Write(answer); });
+  Recovery recovery(program, *lowering, backend->facts, result);
+  Timed(result.seconds.recover, [&] { recovery.Write(answer); });
+  return !recovery.doubted();
 }
 
 void SolverSession::State::Describe(MathematicalProgramResult& result) const {

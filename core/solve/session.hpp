@@ -39,6 +39,7 @@ struct SolverSession::State {
   void SendChanges(std::uint64_t kinds);
   void Start(const std::optional<Eigen::VectorXd>& guess);
   void Run(MathematicalProgramResult& result);
+  bool RunOnce(const sy_control& control, MathematicalProgramResult& result);
   void Describe(MathematicalProgramResult& result) const;
   [[nodiscard]] sy_control Control();
   [[nodiscard]] double Spent() const;
