@@ -8,6 +8,7 @@
 
 #include "CbcConfig.h"
 #include "coin/host_log.hpp"
+#include "coin/proofs.hpp"
 #include "linear/answer.hpp"
 #include "linear/start.hpp"
 #include "search.hpp"
@@ -35,7 +36,7 @@ class Solver {
 
  private:
   [[nodiscard]] OsiClpSolverInterface Relaxation(const sy_control& control, ClpSession& session);
-  bool SolveRelaxation(OsiClpSolverInterface& solver, const Watch& watch, sy_result& result) const;
+  bool SolveRelaxation(OsiClpSolverInterface& solver, Watch& watch, sy_result& result) const;
   void Branch(OsiClpSolverInterface& solver, ClpSession& session, sy_result& result);
   std::vector<double> CompleteStart(const OsiClpSolverInterface& relaxation) const;
   [[nodiscard]] bool Feasible(const std::vector<double>& x, double tolerance) const;
@@ -90,7 +91,7 @@ void Solver::Solve(const sy_control& control, sy_result& result) {
     linear::AnswerWithoutVariables(problem_, kTolerance, result);
   } else {
     ClpSession session{watch, !AnyInteger()};
-    log_.SetVerbosity(control.verbosity);
+    log_.SetVerbosity(std::min(control.verbosity, 1));
     OsiClpSolverInterface solver = Relaxation(control, session);
     if (SolveRelaxation(solver, watch, result)) Branch(solver, session, result);
   }
@@ -99,13 +100,15 @@ void Solver::Solve(const sy_control& control, sy_result& result) {
 
 // The relaxation is the answer of a problem without integers; else it is where the search begins:
 // true where that is wanted.
-bool Solver::SolveRelaxation(OsiClpSolverInterface& solver, const Watch& watch,
+bool Solver::SolveRelaxation(OsiClpSolverInterface& solver, Watch& watch,
                              sy_result& result) const {
   solver.initialSolve();
+  ClpSimplex& clp = *solver.getModelPtr();
+  if (!watch.Stopped() && !coin::ProvesItsVerdict(clp)) coin::SeekProof(clp, watch);
   const bool integers = AnyInteger();
   result.iterations = solver.getIterationCount();
   linear::Say(result, "linear relaxation: CLP status " +
-                          std::to_string(solver.getModelPtr()->problemStatus()));
+                          std::to_string(clp.problemStatus()));
   if (watch.reason() != SY_NOT_SOLVED) {
     result.termination = watch.reason();
   } else if (solver.isProvenPrimalInfeasible()) {

@@ -145,6 +145,9 @@ void AddHeuristics(CbcModel& model, int pump_rounds) {
     CbcHeuristicFPump pump(model);
     pump.setMaximumPasses(pump_rounds);
     pump.setFractionSmall(kWholeTree);
+    pump.setAccumulate(1);
+    pump.setWhen(13);
+    pump.setMaximumRetries(2);
     model.addHeuristic(&pump, "feasibility pump");
   }
   CbcRounding rounding(model);
@@ -166,7 +169,8 @@ void AddHeuristics(CbcModel& model, int pump_rounds) {
 void Configure(CbcModel& model, const linear::Settings& settings, double cutoff,
                const sy_control& control) {
   constexpr int kDefaultSeed = 1234567;  // CBC's
-  model.setLogLevel(std::max(control.verbosity, 0));
+  // Beyond its first level CBC prints on standard output.
+  model.setLogLevel(std::clamp(control.verbosity, 0, 1));
   model.setRandomSeed(control.seed == 0 ? kDefaultSeed : static_cast<int>(control.seed % 0x7fffffff));
   model.setUseElapsedTime(true);
   if (cutoff < kInfinity) model.setCutoff(cutoff);
@@ -183,9 +187,9 @@ void Configure(CbcModel& model, const linear::Settings& settings, double cutoff,
   if (settings.Text("heuristicsOnOff") == "on") {
     AddHeuristics(model, settings.Integer("passFeasibilityPump"));
   }
-  // Small problems are searched to the end from depth 10 on, without cuts and heuristics.
-  constexpr int kCompleteFromTen = -12;
-  if (model.getNumRows() + model.getNumCols() < 500) model.setFastNodeDepth(kCompleteFromTen);
+  // Above -1 and its like CBC hands small subtrees to CLP, which prints on standard output there.
+  constexpr int kSearchAllItself = -1;
+  model.setFastNodeDepth(kSearchAllItself);
   CbcCompareDefault compare;
   model.setNodeComparison(compare);
 }

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <memory>
 #include <string>
 
 #include "ClpConfig.h"
 #include "ClpSolve.hpp"
+#include "coin/proofs.hpp"
 #include "linear/answer.hpp"
 #include "switchyard/plugin.hpp"
 
@@ -16,6 +16,7 @@ namespace {
 
 using coin::ClpSession;
 using coin::ClpWatch;
+using coin::ModelView;
 using linear::Duals;
 using linear::Watch;
 
@@ -88,21 +89,11 @@ void Solver::Configure(const sy_control& control) {
                                                                  : kPerturbWhereItStalls);
 }
 
-void Solver::ForgetBasis() {
-  model_.createStatus();
-  double* x = model_.primalColumnSolution();
-  for (int j = 0; j < model_.numberColumns(); ++j) {
-    x[j] = std::clamp(0.0, model_.columnLower()[j], model_.columnUpper()[j]);
-  }
-  std::fill_n(model_.primalRowSolution(), model_.numberRows(), 0.0);
-  std::fill_n(model_.dualRowSolution(), model_.numberRows(), 0.0);
-}
-
 // A start given since the last solve replaces what that solve left.
 Solver::Way Solver::Begin(bool proceed) {
   if (proceed && solved_ && !start_is_new_) return Way::kDual;
   start_is_new_ = false;
-  ForgetBasis();
+  coin::ForgetBasis(model_);
   if (!start_.has_basis()) {
     return may_presolve_ && settings_.Text("presolve") == "on" ? Way::kPresolved : Way::kPlain;
   }
@@ -122,7 +113,7 @@ void Solver::Solve(const sy_control& control, sy_result& result) {
   Watch watch(control);
   linear::Clear(result);
   if (model_.numberColumns() == 0) {
-    linear::AnswerWithoutVariables(View(), model_.primalTolerance(), result);
+    linear::AnswerWithoutVariables(ModelView(model_).problem, model_.primalTolerance(), result);
     result.seconds = watch.Seconds();
     return;
   }
@@ -137,7 +128,7 @@ void Solver::Solve(const sy_control& control, sy_result& result) {
   } else {
     Run(way, session);
   }
-  if (LacksRay()) SeekRay(session);
+  if (!met_cutoff_ && !coin::ProvesItsVerdict(model_)) coin::SeekProof(model_, watch);
   const ClpEventHandler none;
   model_.passInEventHandler(&none);
   solved_ = true;
@@ -153,8 +144,6 @@ void Solver::Run(Way way, ClpSession& session) {
   }
   if (way == Way::kDual) {
     model_.dual();
-  } else if (way == Way::kPrimal) {
-    model_.primal();
   } else {
     constexpr int kInterrupts = 2;
     constexpr int kNotMine = 1;
@@ -172,26 +161,6 @@ void Solver::Run(Way way, ClpSession& session) {
   }
 }
 
-// Presolve proves without a ray, and where numbers are bad CLP calls a problem infeasible that is
-// not. The primal method from the slack basis leaves a ray, of the problem without its objective
-// where that is what hides it.
-void Solver::SeekRay(ClpSession& session) {
-  ForgetBasis();
-  Run(Way::kPlain, session);
-  if (!LacksRay()) return;
-  ForgetBasis();
-  Run(Way::kPrimal, session);
-  if (!LacksRay() || session.watch.Stopped()) return;
-  const std::vector<double> costs(model_.objective(), model_.objective() + model_.numberColumns());
-  std::fill_n(model_.objective(), model_.numberColumns(), 0.0);
-  ForgetBasis();
-  Run(Way::kPrimal, session);
-  const bool infeasible = model_.problemStatus() == 1;
-  std::copy(costs.begin(), costs.end(), model_.objective());
-  if (infeasible) return;
-  Run(Way::kPrimal, session);
-}
-
 // CLP stops its dual where its objective, perturbed perhaps, passes the limit: only a dual
 // objective of ours makes that a proof.
 void Solver::RunToCutoff(Way way, ClpSession& session, double cutoff) {
@@ -204,51 +173,14 @@ void Solver::RunToCutoff(Way way, ClpSession& session, double cutoff) {
   if (stopped_there && !met_cutoff_) Run(Way::kDual, session);
 }
 
-double Solver::Bound() const {
-  const sy_problem p = View();
+double Solver::Bound() {
+  const ModelView view(model_);
+  const sy_problem& p = view.problem;
   const double* y = model_.dualRowSolution();
   return linear::DualObjective(p, model_.primalColumnSolution(),
                                linear::Complete(p, model_.primalColumnSolution(),
                                                 {y, y + model_.numberRows()}),
                                linear::kRayNoise);
-}
-
-sy_problem Solver::View() const {
-  sy_problem p = {};
-  p.size = sizeof p;
-  p.num_vars = model_.numberColumns();
-  p.num_rows = model_.numberRows();
-  p.q = model_.objective();
-  p.offset = -model_.objectiveOffset();
-  p.x_lower = model_.columnLower();
-  p.x_upper = model_.columnUpper();
-  p.row_lower = model_.rowLower();
-  p.row_upper = model_.rowUpper();
-  CoinPackedMatrix* matrix = model_.matrix();
-  if (p.num_rows == 0 || matrix == nullptr) return p;
-  matrix->removeGaps();
-  a_ = {p.num_rows, p.num_vars, matrix->getVectorStarts(), matrix->getIndices(),
-        matrix->getElements()};
-  p.A = &a_;
-  return p;
-}
-
-std::optional<Duals> Solver::Farkas() const {
-  const std::unique_ptr<double[]> ray(model_.infeasibilityRay());
-  if (ray == nullptr) return std::nullopt;
-  return linear::Farkas(View(), {ray.get(), ray.get() + model_.numberRows()});
-}
-
-std::optional<std::vector<double>> Solver::Ray() const {
-  const std::unique_ptr<double[]> ray(model_.unboundedRay());
-  if (ray == nullptr) return std::nullopt;
-  return linear::FallingRay(View(), {ray.get(), ray.get() + model_.numberColumns()});
-}
-
-bool Solver::LacksRay() const {
-  if (met_cutoff_) return false;
-  if (model_.problemStatus() == 1) return !Farkas();
-  return model_.problemStatus() == 2 && !Ray();
 }
 
 sy_termination Solver::Reason(const Watch& watch) const {
@@ -271,19 +203,20 @@ void Solver::Report(const Watch& watch, sy_result& result) {
   result.termination = Reason(watch);
   linear::Say(result, status >= 0 && status <= 5 ? kWords[status] : "status unknown");
   ReportBasis(result);
-  const sy_problem p = View();
+  const ModelView view(model_);
+  const sy_problem& p = view.problem;
   const std::vector<double> x(model_.primalColumnSolution(),
                               model_.primalColumnSolution() + p.num_vars);
   const double* y = model_.dualRowSolution();
   const Duals duals = linear::Complete(p, x.data(), {y, y + p.num_rows});
   const bool optimal = result.termination == SY_OPTIMAL;
   if (result.termination == SY_INFEASIBLE) {
-    if (const auto proof = Farkas()) linear::Put(result, *proof, SY_CERTIFICATE);
+    if (const auto proof = coin::Farkas(model_)) linear::Put(result, *proof, SY_CERTIFICATE);
     return;
   }
   if (result.termination == SY_UNBOUNDED) {
     result.objective = -kInfinity;
-    const auto ray = Ray();
+    const auto ray = coin::Ray(model_);
     if (!ray) return;
     result.primal = SY_CERTIFICATE;
     linear::Put(result.x, *ray);

@@ -30,8 +30,7 @@ class Solver {
   enum class Way {
     kPresolved,  // from nothing
     kPlain,      // from nothing, without presolve: leaves rays
-    kDual,       // from the basis that is there
-    kPrimal      // likewise
+    kDual        // from the basis that is there
   };
 
   void TakeWhole(const sy_problem& problem, std::uint32_t kinds);
@@ -40,15 +39,9 @@ class Solver {
 
   void Configure(const sy_control& control);
   Way Begin(bool proceed);
-  void ForgetBasis();
   void Run(Way way, coin::ClpSession& session);
   void RunToCutoff(Way way, coin::ClpSession& session, double cutoff);
-  void SeekRay(coin::ClpSession& session);
-  [[nodiscard]] double Bound() const;
-  [[nodiscard]] sy_problem View() const;
-  [[nodiscard]] bool LacksRay() const;
-  [[nodiscard]] std::optional<linear::Duals> Farkas() const;
-  [[nodiscard]] std::optional<std::vector<double>> Ray() const;
+  [[nodiscard]] double Bound();
   [[nodiscard]] sy_termination Reason(const linear::Watch& watch) const;
   void Report(const linear::Watch& watch, sy_result& result);
   void ReportBasis(sy_result& result) const;
@@ -56,7 +49,6 @@ class Solver {
   const sy_host& host_;
   coin::HostLog log_;
   ClpSimplex model_;
-  mutable sy_csc a_{};  // what View lends
   linear::Settings settings_;
   linear::Start start_;
   bool start_is_new_ = false;

@@ -1,6 +1,7 @@
 #include "highs.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <utility>
 
@@ -60,10 +61,12 @@ ModelView::ModelView(const HighsModel& model) : A{}, p{}, problem{} {
   problem.P = &p;
 }
 
-void Attach(Highs& solver, Watch& watch) {
-  const auto hear = [&watch](int kind, const std::string&, const HighsCallbackOutput* out,
-                             HighsCallbackInput* in, void*) {
-    if (kind == kCallbackMipImprovingSolution) {
+void Attach(Highs& solver, Watch& watch, const sy_host& host) {
+  const auto hear = [&](int kind, const std::string& text, const HighsCallbackOutput* out,
+                        HighsCallbackInput* in, void*) {
+    if (kind == kCallbackLogging) {
+      if (host.log != nullptr) host.log(host.context, SY_LOG_INFO, text.c_str());
+    } else if (kind == kCallbackMipImprovingSolution) {
       watch.Tell(out->mip_total_lp_iterations, out->objective_function_value, out->mip_dual_bound,
                  out->mip_node_count, 0, out->mip_solution.data());
     } else if (kind == kCallbackMipInterrupt) {
@@ -78,7 +81,7 @@ void Attach(Highs& solver, Watch& watch) {
     }
   };
   solver.setCallback(hear);
-  for (const auto kind : {kCallbackSimplexInterrupt, kCallbackIpmInterrupt, kCallbackMipInterrupt,
+  for (const auto kind : {kCallbackLogging, kCallbackSimplexInterrupt, kCallbackIpmInterrupt, kCallbackMipInterrupt,
                           kCallbackMipImprovingSolution}) {
     solver.startCallback(kind);
   }
@@ -99,10 +102,6 @@ Solver::~Solver() {
   });
 }
 
-void Solver::Log(const std::string& text) {
-  if (host_.log != nullptr) host_.log(host_.context, SY_LOG_INFO, text.c_str());
-}
-
 void Solver::WarmStart(const sy_start& start) {
   start_ = linear::Start(start, highs_->getNumCol(), highs_->getNumRow());
   start_is_new_ = true;
@@ -118,17 +117,17 @@ void Solver::Solve(const sy_control& control, sy_result& result) {
     options.time_limit = std::min(options.time_limit, highs_->getRunTime() + watch.Left());
     Must(highs_->passOptions(options), "its options");
     Begin((control.flags & SY_CONTINUE) != 0);
-    Attach(*highs_, watch);
-    if (control.verbosity > 0) {
-      highs_->setLogCallback([](HighsLogType, const char* text, void* self) {
-        static_cast<Solver*>(self)->Log(text);
-      }, this);
-    }
+    Attach(*highs_, watch, host_);
     Run(watch, result);
-    highs_->setLogCallback(nullptr);
     highs_->setCallback(HighsCallbackFunctionType());
-  });
+  }, [&] { if (watch.Stopped()) EndTime(); });
   result.seconds = watch.Seconds();
+}
+
+// Branch and bound and presolve ask for interrupts too seldom, but often whether time is up.
+void Solver::EndTime() {
+  double& limit = const_cast<HighsOptions&>(highs_->getOptions()).time_limit;
+  std::atomic_ref<double>(limit).store(0, std::memory_order_relaxed);
 }
 
 // A start given since the last solve replaces what that solve left.
@@ -187,7 +186,8 @@ sy_termination Solver::Reason(const Watch& watch) const {
     case HighsModelStatus::kUnboundedOrInfeasible: return SY_INFEASIBLE_OR_UNBOUNDED;
     case HighsModelStatus::kObjectiveBound: return SY_CUTOFF;
     case HighsModelStatus::kObjectiveTarget: return SY_TARGET;
-    case HighsModelStatus::kTimeLimit: return SY_TIME_LIMIT;
+    case HighsModelStatus::kTimeLimit:
+      return watch.reason() != SY_NOT_SOLVED ? watch.reason() : SY_TIME_LIMIT;
     case HighsModelStatus::kIterationLimit: return SY_ITERATION_LIMIT;
     case HighsModelStatus::kSolutionLimit: return SY_NODE_LIMIT;
     case HighsModelStatus::kMemoryLimit: return SY_MEMORY_LIMIT;
@@ -248,10 +248,10 @@ void Solver::ReportCertificate(const ModelView& view, Watch& watch, sy_result& r
         has_ray) {
       duals = linear::Farkas(view.problem, ray);
     }
-    if (!duals) duals = FindFarkas(highs_->getModel(), highs_->getOptions(), watch);
+    if (!duals) duals = FindFarkas(highs_->getModel(), highs_->getOptions(), host_, watch);
     if (duals) Put(result, *duals, SY_CERTIFICATE);
   } else if (result.termination == SY_UNBOUNDED && result.x != nullptr) {
-    const auto ray = FindRay(highs_->getModel(), highs_->getOptions(), watch);
+    const auto ray = FindRay(highs_->getModel(), highs_->getOptions(), host_, watch);
     if (!ray) return;
     result.primal = SY_CERTIFICATE;
     Put(result.x, *ray);

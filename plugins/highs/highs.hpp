@@ -38,13 +38,13 @@ struct ModelView {
 
 /// A Farkas certificate of a model whose quadratic part is ignored; within the watch's budget.
 std::optional<linear::Duals> FindFarkas(const HighsModel& model, const HighsOptions& options,
-                                        linear::Watch& watch);
+                                        const sy_host& host, linear::Watch& watch);
 /// A direction of recession in which the objective falls and its curvature is 0.
 std::optional<std::vector<double>> FindRay(const HighsModel& model, const HighsOptions& options,
-                                           linear::Watch& watch);
+                                           const sy_host& host, linear::Watch& watch);
 
-/// Lets `watch` stop `solver`, and hears what it finds.
-void Attach(Highs& solver, linear::Watch& watch);
+/// Lets `watch` stop `solver`, hears what it finds, and sends its log to the host.
+void Attach(Highs& solver, linear::Watch& watch, const sy_host& host);
 
 class Solver {
  public:
@@ -68,7 +68,7 @@ class Solver {
 
   void Run(linear::Watch& watch, sy_result& result);
   void Begin(bool proceed);
-  void Log(const std::string& text);
+  void EndTime();
   sy_termination Reason(const linear::Watch& watch) const;
   void Report(linear::Watch& watch, sy_result& result);
   void ReportDuals(const ModelView& view, sy_result& result);
@@ -76,7 +76,7 @@ class Solver {
   void ReportBasis(sy_result& result) const;
   [[nodiscard]] bool has_integers() const { return highs_->getLp().isMip(); }
 
-  const sy_host host_;
+  const sy_host& host_;
   Worker worker_;                 // HiGHS keeps a scheduler of tasks for each calling thread
   std::unique_ptr<Highs> highs_;  // lives and is used on the worker
   Options options_;

@@ -11,7 +11,8 @@ namespace {
 
 // Solves `lp` by the simplex method without presolve, so that a ray is left; false where HiGHS or
 // the watch stopped it first.
-bool Solves(Highs& solver, HighsLp lp, const HighsOptions& options, linear::Watch& watch) {
+bool Solves(Highs& solver, HighsLp lp, const HighsOptions& options, const sy_host& host,
+            linear::Watch& watch) {
   HighsOptions plain = options;
   plain.presolve = kHighsOffString;
   plain.solver = kSimplexString;
@@ -20,7 +21,7 @@ bool Solves(Highs& solver, HighsLp lp, const HighsOptions& options, linear::Watc
   plain.time_limit = watch.Left();
   solver.passOptions(plain);
   if (solver.passModel(std::move(lp)) == HighsStatus::kError) return false;
-  Attach(solver, watch);
+  Attach(solver, watch, host);
   const bool ran = solver.run() != HighsStatus::kError;
   solver.setCallback(HighsCallbackFunctionType());
   return ran;
@@ -32,14 +33,47 @@ void Recede(std::vector<double>& lower, std::vector<double>& upper, double most)
   for (double& u : upper) u = std::isinf(u) ? most : 0;
 }
 
+// Appends the rows Pd = 0, P given by its upper triangle: by rows it is that triangle's row and,
+// where it is off the diagonal, its column.
+void AppendRows(const Csc& upper, HighsLp& lp) {
+  const Csc lower = Transpose(upper.View());
+  std::vector<HighsInt> start = {0};
+  std::vector<HighsInt> index;
+  std::vector<double> value;
+  const auto take = [&](const Csc& half, std::size_t i, bool diagonal) {
+    for (auto k = static_cast<std::size_t>(half.start[i]);
+         k < static_cast<std::size_t>(half.start[i + 1]); ++k) {
+      if (!diagonal && half.row[k] == static_cast<std::int32_t>(i)) continue;
+      index.push_back(half.row[k]);
+      value.push_back(half.value[k]);
+    }
+  };
+  for (std::size_t i = 0; i < static_cast<std::size_t>(upper.cols); ++i) {
+    take(upper, i, true);
+    take(lower, i, false);
+    start.push_back(static_cast<HighsInt>(index.size()));
+  }
+  HighsSparseMatrix rows;
+  rows.format_ = MatrixFormat::kRowwise;
+  rows.num_row_ = rows.num_col_ = lp.num_col_;
+  rows.start_ = std::move(start);
+  rows.index_ = std::move(index);
+  rows.value_ = std::move(value);
+  lp.a_matrix_.ensureRowwise();
+  lp.a_matrix_.addRows(rows);
+  lp.num_row_ += lp.num_col_;
+  lp.row_lower_.resize(static_cast<std::size_t>(lp.num_row_), 0);
+  lp.row_upper_.resize(static_cast<std::size_t>(lp.num_row_), 0);
+}
+
 }  // namespace
 
 std::optional<linear::Duals> FindFarkas(const HighsModel& model, const HighsOptions& options,
-                                        linear::Watch& watch) {
+                                        const sy_host& host, linear::Watch& watch) {
   HighsLp lp = model.lp_;
   std::fill(lp.col_cost_.begin(), lp.col_cost_.end(), 0);
   Highs solver;
-  if (!Solves(solver, std::move(lp), options, watch)) return std::nullopt;
+  if (!Solves(solver, std::move(lp), options, host, watch)) return std::nullopt;
   std::vector<double> ray(static_cast<std::size_t>(model.lp_.num_row_));
   bool has_ray = false;
   solver.getDualRay(has_ray, ray.data());
@@ -48,50 +82,16 @@ std::optional<linear::Duals> FindFarkas(const HighsModel& model, const HighsOpti
 }
 
 std::optional<std::vector<double>> FindRay(const HighsModel& model, const HighsOptions& options,
-                                           linear::Watch& watch) {
+                                           const sy_host& host, linear::Watch& watch) {
   // min q'd such that d recedes, Pd = 0, -1 <= d <= 1
   HighsLp lp = model.lp_;
   lp.integrality_.clear();
   Recede(lp.col_lower_, lp.col_upper_, 1);
   Recede(lp.row_lower_, lp.row_upper_, kHighsInf);
   const ModelView view(model);
-  if (view.problem.P != nullptr) {
-    const Csc& upper = view.P;
-    HighsSparseMatrix rows;
-    rows.format_ = MatrixFormat::kColwise;
-    rows.num_row_ = rows.num_col_ = lp.num_col_;
-    rows.start_ = upper.start;
-    rows.index_ = upper.row;
-    rows.value_ = upper.value;
-    lp.a_matrix_.ensureRowwise();
-    rows.ensureRowwise();
-    // P by rows is its upper triangle's row and, where it is off the diagonal, that column.
-    std::vector<HighsInt> start = {0};
-    std::vector<HighsInt> index;
-    std::vector<double> value;
-    for (HighsInt i = 0; i < lp.num_col_; ++i) {
-      const auto at = static_cast<std::size_t>(i);
-      for (auto k = upper.start[at]; k < upper.start[at + 1]; ++k) {
-        if (upper.row[static_cast<std::size_t>(k)] == i) continue;
-        index.push_back(upper.row[static_cast<std::size_t>(k)]);
-        value.push_back(upper.value[static_cast<std::size_t>(k)]);
-      }
-      for (auto k = rows.start_[at]; k < rows.start_[at + 1]; ++k) {
-        index.push_back(rows.index_[static_cast<std::size_t>(k)]);
-        value.push_back(rows.value_[static_cast<std::size_t>(k)]);
-      }
-      start.push_back(static_cast<HighsInt>(index.size()));
-    }
-    rows.start_ = std::move(start);
-    rows.index_ = std::move(index);
-    rows.value_ = std::move(value);
-    lp.a_matrix_.addRows(rows);
-    lp.num_row_ += lp.num_col_;
-    lp.row_lower_.resize(static_cast<std::size_t>(lp.num_row_), 0);
-    lp.row_upper_.resize(static_cast<std::size_t>(lp.num_row_), 0);
-  }
+  if (view.problem.P != nullptr) AppendRows(view.P, lp);
   Highs solver;
-  if (!Solves(solver, std::move(lp), options, watch)) return std::nullopt;
+  if (!Solves(solver, std::move(lp), options, host, watch)) return std::nullopt;
   if (solver.getModelStatus() != HighsModelStatus::kOptimal) return std::nullopt;
   if (solver.getInfo().objective_function_value - model.lp_.offset_ >= 0) return std::nullopt;
   return linear::FallingRay(view.problem, solver.getSolution().col_value);

@@ -1,6 +1,7 @@
 // worker.hpp - a thread that runs one call at a time for whoever asks.
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <exception>
 #include <functional>
@@ -24,12 +25,19 @@ class Worker {
     thread_.join();
   }
 
-  /// Runs `call` on the thread, waits for it, and throws what it threw.
-  void Run(std::function<void()> call) {
+  /// Runs `call` on the thread, waits for it, and throws what it threw. Whoever waits calls
+  /// `meanwhile` now and then.
+  void Run(std::function<void()> call, const std::function<void()>& meanwhile = {}) {
+    constexpr std::chrono::milliseconds kNowAndThen(10);
     std::unique_lock lock(mutex_);
     call_ = std::move(call);
     changed_.notify_all();
-    changed_.wait(lock, [this] { return call_ == nullptr; });
+    while (!changed_.wait_for(lock, kNowAndThen, [this] { return call_ == nullptr; })) {
+      if (!meanwhile) continue;
+      lock.unlock();
+      meanwhile();
+      lock.lock();
+    }
     if (thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));
   }
 
@@ -39,11 +47,15 @@ class Worker {
     for (;;) {
       changed_.wait(lock, [this] { return ending_ || call_ != nullptr; });
       if (ending_) return;
+      lock.unlock();
+      std::exception_ptr thrown;
       try {
         call_();
       } catch (...) {
-        thrown_ = std::current_exception();
+        thrown = std::current_exception();
       }
+      lock.lock();
+      thrown_ = thrown;
       call_ = nullptr;
       changed_.notify_all();
     }

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "switchyard/abi.h"
@@ -85,8 +86,18 @@ inline std::optional<Duals> Farkas(const sy_problem& p, const std::vector<double
   return std::nullopt;
 }
 
-/// The direction along `ray` or against it in which the objective falls, with a largest entry of 1;
-/// nothing where it is level. Whether it recedes is the solver's word.
+/// Does d recede into a box: no entry towards a side that is finite?
+inline bool Recedes(const std::vector<double>& d, const double* lower, const double* upper) {
+  constexpr double kSlack = 1e-8;
+  for (std::size_t k = 0; k < d.size(); ++k) {
+    if (d[k] < -kSlack && !std::isinf(lower[k])) return false;
+    if (d[k] > kSlack && !std::isinf(upper[k])) return false;
+  }
+  return true;
+}
+
+/// The direction along `ray` or against it, of largest entry 1, in which the objective falls and the
+/// problem recedes; nothing where neither does.
 inline std::optional<std::vector<double>> FallingRay(const sy_problem& p, std::vector<double> ray) {
   double size = 0;
   double slope = 0;
@@ -96,7 +107,11 @@ inline std::optional<std::vector<double>> FallingRay(const sy_problem& p, std::v
   }
   if (size == 0 || slope == 0) return std::nullopt;
   for (double& r : ray) r *= slope < 0 ? 1 / size : -1 / size;
-  return ray;
+  std::vector<double> rows(static_cast<std::size_t>(p.num_rows), 0.0);
+  if (p.A != nullptr) MultiplyAdd(*p.A, 1, ray.data(), rows.data());
+  const bool recedes =
+      Recedes(ray, p.x_lower, p.x_upper) && Recedes(rows, p.row_lower, p.row_upper);
+  return recedes ? std::optional(std::move(ray)) : std::nullopt;
 }
 
 }  // namespace switchyard::linear
