@@ -53,6 +53,11 @@ struct Worst {
     absolute = std::max(absolute, violation);
     largest_term = std::max(largest_term, own_term);
   }
+  /// In units in which kSupported is the most: by each one's own terms, or by the largest of all.
+  [[nodiscard]] double InUnits() const {
+    const double by_norm = absolute / (1 + largest_term) * (kSupported / kSupportedByNorm);
+    return std::min(relative, by_norm);
+  }
 };
 
 void SeeCones(const sy_problem& problem, const RowValues& rows, Worst& worst) {
@@ -73,6 +78,38 @@ void SeeCones(const sy_problem& problem, const RowValues& rows, Worst& worst) {
   }
 }
 
+/// What the part of the stationarity Px + q - A'y - F'z whose sign is against an infinite side of x
+/// can be worth in a box of the size of the point: its sum, times the largest |x_j|. Row duals
+/// against infinite sides count as 0.
+double OpenWorth(const sy_problem& problem, const Vectors& v) {
+  const auto n = static_cast<std::size_t>(problem.num_vars);
+  std::vector<double> rho(problem.q, problem.q + n);
+  if (problem.P != nullptr && !v.x.empty()) {
+    SymmetricMultiplyAdd(*problem.P, 1, v.x.data(), rho.data());
+  }
+  std::vector<double> row_dual = v.row_dual;
+  for (std::size_t i = 0; i < row_dual.size(); ++i) {
+    const double side = row_dual[i] > 0 ? problem.row_lower[i] : problem.row_upper[i];
+    if (std::isinf(side)) row_dual[i] = 0;
+  }
+  if (problem.A != nullptr && !row_dual.empty()) {
+    TransposedMultiplyAdd(*problem.A, -1, row_dual.data(), rho.data());
+  }
+  if (problem.F != nullptr && !v.cone_dual.empty()) {
+    TransposedMultiplyAdd(*problem.F, -1, v.cone_dual.data(), rho.data());
+  }
+  double open = 0;
+  double radius = 1;
+  for (std::size_t j = 0; j < n; ++j) {
+    const double lower = problem.x_lower != nullptr ? problem.x_lower[j] : -kInfinity;
+    const double upper = problem.x_upper != nullptr ? problem.x_upper[j] : kInfinity;
+    if (upper == kInfinity) open += std::max(0.0, -rho[j]);
+    if (lower == -kInfinity) open += std::max(0.0, rho[j]);
+    if (!v.x.empty()) radius = std::max(radius, std::abs(v.x[j]));
+  }
+  return open * radius;
+}
+
 }  // namespace
 
 double RelativeViolation(const sy_problem& problem, const std::vector<double>& x) {
@@ -91,9 +128,7 @@ double RelativeViolation(const sy_problem& problem, const std::vector<double>& x
     worst.See(Outside(rows.value[i], problem.row_lower[i], problem.row_upper[i]), rows.largest[i]);
   }
   SeeCones(problem, Evaluate(problem.F, problem.g, problem.num_cone_rows, x), worst);
-  const double by_norm =
-      worst.absolute / (1 + worst.largest_term) * (kSupported / kSupportedByNorm);
-  return std::max(std::min(worst.relative, by_norm), integrality * kSupported / kIntegral);
+  return std::max(worst.InUnits(), integrality * kSupported / kIntegral);
 }
 
 DualCheck CheckDuals(const sy_problem& problem, const Vectors& v, double cutoff) {
@@ -109,7 +144,8 @@ DualCheck CheckDuals(const sy_problem& problem, const Vectors& v, double cutoff)
   };
   const SafeBound proven = bound_on(lower, upper);
   const SafeBound plain = bound_on(nullptr, nullptr);
-  return {std::min(proven.value, cutoff), plain.estimate, plain.open_residual, proven.open_column};
+  return {std::min(proven.value, cutoff), plain.estimate, OpenWorth(problem, v),
+          proven.open_column};
 }
 
 bool ProvesInfeasible(const sy_problem& problem, const Vectors& v) {

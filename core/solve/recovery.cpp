@@ -123,10 +123,11 @@ void Recovery::WriteBound(const AnswerBuffers& answer) {
   const auto apart = [&](double value) {
     return std::abs(InUserSense(result_.objective) - value) / (1 + std::abs(result_.objective));
   };
-  const double by_estimate = std::max(apart(check.estimate), check.open_residual);
+  const double by_estimate =
+      apart(check.estimate) + check.open_worth / (1 + std::abs(result_.objective));
   const double error =
       std::isfinite(check.bound) ? std::min(apart(check.bound), by_estimate) : by_estimate;
-  result_.dual = KindOf(has_point ? error : check.open_residual);
+  result_.dual = KindOf(has_point ? error : check.open_worth);
   if (!std::isfinite(check.bound) && check.open_column >= 0 && has_point) {
     result_.notes.push_back(lowering_.WithNames(
         program_, Text("no bound is proven: x[", check.open_column,
