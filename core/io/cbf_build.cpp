@@ -77,9 +77,9 @@ class CbfBuilder {
   void SortByIndex(CbfBlock<K>* block, const char* what) const {
     std::sort(block->entries.begin(), block->entries.end(),
               [](const auto& a, const auto& b) { return a.index < b.index; });
-    const auto twice = std::adjacent_find(
-        block->entries.begin(), block->entries.end(),
-        [](const auto& a, const auto& b) { return a.index == b.index; });
+    const auto twice =
+        std::adjacent_find(block->entries.begin(), block->entries.end(),
+                           [](const auto& a, const auto& b) { return a.index == b.index; });
     if (twice != block->entries.end()) FailTwice(*block, what);
   }
 
@@ -144,8 +144,8 @@ void CbfBuilder::AddCost() {
   std::vector<Term> terms;
   for (const auto& [index, value] : data_.cost.entries) terms.push_back({index[0], value});
   for (const auto& [index, value] : data_.matrix_cost.entries) {
-    terms.push_back({MatrixVariable(index[0], index[1], index[2]),
-                     Weight(index[1], index[2], value)});
+    terms.push_back(
+        {MatrixVariable(index[0], index[1], index[2]), Weight(index[1], index[2], value)});
   }
   std::erase_if(terms, [](const Term& term) { return term.factor == 0; });
   if (terms.empty() && data_.constant == 0) return;
@@ -181,8 +181,8 @@ Rows CbfBuilder::AffineRows() {
   };
   for (const auto& [index, value] : data_.A.entries) put(index[0], {index[1], value});
   for (const auto& [index, value] : data_.F.entries) {
-    put(index[0], {MatrixVariable(index[1], index[2], index[3]),
-                   Weight(index[2], index[3], value)});
+    put(index[0],
+        {MatrixVariable(index[1], index[2], index[3]), Weight(index[2], index[3], value)});
   }
   const auto before = [](const Term& a, const Term& b) { return a.var < b.var; };
   for (std::size_t i = 0; i < size; ++i) {
@@ -297,6 +297,7 @@ void CbfBuilder::AddCone(const CbfCone& cone, const Rows& x) {
   }
   SparseMatrix A(cone.size, static_cast<Eigen::Index>(vars.size()));
   A.setFromTriplets(triplets.begin(), triplets.end());
+  A.prune([](Eigen::Index, Eigen::Index, double value) { return value != 0; });
   VectorXDecisionVariable of(static_cast<Eigen::Index>(vars.size()));
   for (std::size_t i = 0; i < vars.size(); ++i) of(static_cast<Eigen::Index>(i)) = x_(vars[i]);
   cone.facts->add(program_.get(), std::move(A), b, cone.alpha, of);
@@ -307,8 +308,8 @@ void CbfBuilder::AddMatrixInequalities() {
   SortByIndex(&data_.D, "matrix and place");
   std::size_t next = 0;
   std::size_t next_constant = 0;
-  std::size_t entries_left = std::min(
-      kMostEntries, kFreeEntries + kEntriesPerByte * text_.bytes().size());
+  std::size_t entries_left =
+      std::min(kMostEntries, kFreeEntries + kEntriesPerByte * text_.bytes().size());
   for (int l = 0; l < static_cast<int>(data_.matrix_rows.size()); ++l) {
     AddMatrixInequality(l, &next, &next_constant, &entries_left);
   }
@@ -323,9 +324,10 @@ void CbfBuilder::AddMatrixInequality(int matrix, std::size_t* next, std::size_t*
   std::vector<int> vars;
   const auto open = [&] {
     if (places > *entries_left) {
-      text_.Fail(data_.H.at.empty() ? data_.D.at : data_.H.at,
-                 Text("matrices of PSDCON with fewer entries, zeros counted"),
-                 Text("matrix ", matrix, " of size ", n, " with ", vars.size(), " variables or more"));
+      text_.Fail(
+          data_.H.at.empty() ? data_.D.at : data_.H.at,
+          Text("matrices of PSDCON with fewer entries, zeros counted"),
+          Text("matrix ", matrix, " of size ", n, " with ", vars.size(), " variables or more"));
     }
     *entries_left -= places;
     F.emplace_back(Eigen::MatrixXd::Zero(n, n));

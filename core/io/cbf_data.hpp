@@ -46,14 +46,14 @@ struct CbfData {
   std::vector<CbfCone> row_cones;
   std::vector<int> matrix_rows;  // the rows of each matrix of PSDCON
   // With i a row, j a variable, k and l matrices of PSDVAR and PSDCON, (a, b) a place in one:
-  CbfBlock<1> cost;              // j
-  CbfBlock<3> matrix_cost;       // k a b
+  CbfBlock<1> cost;         // j
+  CbfBlock<3> matrix_cost;  // k a b
   double constant = 0;
-  CbfBlock<2> A;                 // i j
-  CbfBlock<4> F;                 // i k a b
-  CbfBlock<1> b;                 // i
-  CbfBlock<4> H;                 // l j a b
-  CbfBlock<3> D;                 // l a b
+  CbfBlock<2> A;  // i j
+  CbfBlock<4> F;  // i k a b
+  CbfBlock<1> b;  // i
+  CbfBlock<4> H;  // l j a b
+  CbfBlock<3> D;  // l a b
 };
 
 CbfData ParseCbf(const FileText& text);

@@ -63,8 +63,8 @@ CbfLayout::CbfLayout(const MathematicalProgram& program)
     for (int b = 0; b < n; ++b) {
       for (int a = b; a < n; ++a) {
         const int variable = index[static_cast<std::size_t>(a + b * n)];
-        places_[static_cast<std::size_t>(variable)] = {
-            -1, static_cast<int>(matrix_sizes_.size()), a, b};
+        places_[static_cast<std::size_t>(variable)] = {-1, static_cast<int>(matrix_sizes_.size()),
+                                                       a, b};
         in_matrices.push_back(variable);
       }
     }

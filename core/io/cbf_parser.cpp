@@ -115,9 +115,7 @@ class CbfParser {
                    &CbfParser::MatrixVarAt<0>);
   }
   void Constant() { data_.constant = text_.Number(Fields(1, "a number")[0]); }
-  void A() {
-    ReadEntries<2>("a row, a variable and a number", &data_.A, &CbfParser::RowAndVarAt);
-  }
+  void A() { ReadEntries<2>("a row, a variable and a number", &data_.A, &CbfParser::RowAndVarAt); }
   void F() {
     ReadEntries<4>("a row, a matrix, its row, its column and a number", &data_.F,
                    &CbfParser::RowAndMatrixVarAt);
@@ -284,8 +282,7 @@ void CbfParser::ReadCones(int* total, std::vector<CbfCone>* cones) {
 }
 
 // NAME, or @k:NAME with k a cone of POWCONES or POW*CONES.
-CbfCone CbfParser::ConeOf(std::string_view name, std::string_view size, int first,
-                          int left) const {
+CbfCone CbfParser::ConeOf(std::string_view name, std::string_view size, int first, int left) const {
   const std::size_t colon = name.starts_with('@') ? name.find(':') : std::string_view::npos;
   const bool parametric = colon != std::string_view::npos;
   const CbfConeFacts* facts = FindCbfCone(parametric ? name.substr(colon + 1) : name);
@@ -295,8 +292,9 @@ CbfCone CbfParser::ConeOf(std::string_view name, std::string_view size, int firs
   CbfCone cone{facts, first, 0, 0};
   if (parametric) {
     const std::vector<double>& alphas = facts->name == "POW" ? data_.powers : data_.dual_powers;
-    const int k = text_.Integer(name.substr(1, colon - 1), 0, static_cast<int>(alphas.size()),
-                                facts->name == "POW" ? "a cone of POWCONES" : "a cone of POW*CONES");
+    const int k =
+        text_.Integer(name.substr(1, colon - 1), 0, static_cast<int>(alphas.size()),
+                      facts->name == "POW" ? "a cone of POWCONES" : "a cone of POW*CONES");
     cone.alpha = alphas[static_cast<std::size_t>(k)];
   }
   if (left < facts->least_size) {

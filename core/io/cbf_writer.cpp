@@ -165,7 +165,8 @@ void CbfWriter::LinearRows() {
 
 void CbfWriter::BoundRows() {
   const auto add = [&](int j, const char* cone, double bound) {
-    notes_.Count("a bound of a variable other than 0 is written as a row", program_.VariableName(j));
+    notes_.Count("a bound of a variable other than 0 is written as a row",
+                 program_.VariableName(j));
     row_terms_.emplace_back(num_rows_, j, 1);
     AddRow(cone, -bound);
   };
@@ -303,7 +304,11 @@ void CbfWriter::Cones(const char* name, int total, const std::vector<Span>& span
 void CbfWriter::Structure() {
   const bool exponential = std::any_of(row_cones_.begin(), row_cones_.end(),
                                        [](const Span& span) { return span.cone == "EXP"; });
-  out_ += Text("VER\n", !alphas_.empty() ? 3 : exponential ? 2 : 1, "\n\nOBJSENSE\n",
+  out_ += Text("VER\n",
+               !alphas_.empty() ? 3
+               : exponential    ? 2
+                                : 1,
+               "\n\nOBJSENSE\n",
                program_.objective_sense() == ObjectiveSense::kMaximize ? "MAX" : "MIN", "\n\n");
   if (!alphas_.empty()) {
     out_ += Text("POWCONES\n", alphas_.size(), " ", 2 * alphas_.size(), "\n");

@@ -1,5 +1,5 @@
-// From what an MPS file says to a program: a block of variables, one binding of bounds, one of rows,
-// one cost of each kind.
+// From what an MPS file says to a program: a block of variables, one binding of bounds, one of
+// rows, one cost of each kind.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -44,7 +44,8 @@ class MpsBuilder {
   void AddVariables();
   void AddBounds();
   void AddRows();
-  void AddSwitches(std::vector<int>* start, std::vector<int>* row, std::vector<double>* value) const;
+  void AddSwitches(std::vector<int>* start, std::vector<int>* row,
+                   std::vector<double>* value) const;
   void SortColumns();
   void AddLinearCost();
   void AddQuadraticCost();
@@ -186,7 +187,8 @@ void MpsBuilder::AddSwitches(std::vector<int>* start, std::vector<int>* row,
                              std::vector<double>* value) const {
   std::vector<int> first_row(data_.columns.size(), -1);
   int next = data_.num_rows;
-  for (const int j : switched_) first_row[static_cast<std::size_t>(j)] = std::exchange(next, next + 2);
+  for (const int j : switched_)
+    first_row[static_cast<std::size_t>(j)] = std::exchange(next, next + 2);
   for (std::size_t j = 0; j < data_.columns.size(); ++j) {
     start->push_back(static_cast<int>(row->size()));
     const auto from = static_cast<std::size_t>(data_.start[j]);
@@ -238,8 +240,8 @@ void MpsBuilder::AddRows() {
     add({-kInfinity, 0}, NewName(data_.row_names, column + "_below"));
     add({0, kInfinity}, NewName(data_.row_names, column + "_above"));
   }
-  auto A = CompressedColumns(num_rows, static_cast<int>(x_.size()), data_.start, data_.row,
-                             data_.value);
+  auto A =
+      CompressedColumns(num_rows, static_cast<int>(x_.size()), data_.start, data_.row, data_.value);
   const auto rows = program_->AddLinearConstraint(std::move(A), lower, upper, x_);
   rows.evaluator()->set_row_names(std::move(names));
 }
@@ -272,7 +274,9 @@ void MpsBuilder::AddQuadraticCost() {
   std::stable_sort(entries.begin(), entries.end(), before);
   for (std::size_t k = 0; k < entries.size(); ++k) {
     if (k > 0 && !before(entries[k - 1], entries[k])) {
-      text_.Fail(entries[k].at, "each pair of columns once", Text("another ", Quoted(entries[k].at)));
+      const std::string_view one = entries[k - 1].at;
+      const std::string_view at = one.data() > entries[k].at.data() ? one : entries[k].at;
+      text_.Fail(at, "each pair of columns once", Text("another ", Quoted(at)));
     }
     if (!data_.both_triangles) continue;
     const MpsQuadraticEntry mirrored{entries[k].col, entries[k].row, 0, {}};

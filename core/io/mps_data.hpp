@@ -63,13 +63,12 @@ struct MpsData {
 /// where a name may have blanks inside.
 enum class MpsLayout { kFree, kFixed };
 
-MpsData ParseMps(const FileText& text, MpsLayout layout, Notes* notes);
 std::unique_ptr<MathematicalProgram> BuildMpsProgram(const FileText& text, MpsData data,
                                                      Notes* notes);
 
 /// Free MPS is tried first. A file of fixed MPS with blanks in names never fits it (one field too
 /// many on its line), so where it fails, the columns of fixed MPS are tried, which are as strict:
-/// nothing between fields. Where both fail, the one that came farther says why.
+/// nothing between fields. Where both fail, fixed MPS says why if it met a name with blanks.
 std::unique_ptr<MathematicalProgram> ReadMps(const FileText& text, Notes* notes);
 
 }  // namespace switchyard::io

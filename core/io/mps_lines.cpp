@@ -31,6 +31,7 @@ void MpsParser::StartColumn(std::string_view name) {
   if (data_.column_names.Add(name) < 0) {
     text_.Fail(name, "a column that is new, as its lines stand together");
   }
+  NoteBlanks(name);
   data_.columns.emplace_back().integer = in_integers_;
   data_.start.push_back(static_cast<int>(data_.row.size()));
 }
@@ -82,11 +83,12 @@ void MpsParser::RhsLine() {
   for (std::size_t i = first; i < count_; i += 2) {
     MpsRow& row = RowNamed(fields_[i]);
     if (!std::isnan(row.rhs)) {
-      text_.Fail(fields_[i], "one right-hand side for a row", Text("another for ", Quoted(fields_[i])));
+      text_.Fail(fields_[i], "one right-hand side for a row",
+                 Text("another for ", Quoted(fields_[i])));
     }
     row.rhs = row.type == 'N' ? text_.Number(fields_[i + 1]) : Side(fields_[i + 1]);
-    const bool no_side = (row.rhs == kInfinity && row.type != 'L') ||
-                         (row.rhs == -kInfinity && row.type != 'G');
+    const bool no_side =
+        (row.rhs == kInfinity && row.type != 'L') || (row.rhs == -kInfinity && row.type != 'G');
     if (row.type != 'N' && no_side) {
       text_.Fail(fields_[i + 1], Text("a finite right-hand side for a row of type ", row.type));
     }
@@ -138,10 +140,9 @@ void MpsParser::BoundLine() {
     text_.Fail(Line(), kind->needs_value ? "a type of bound, a set, a column and a number"
                                          : "a type of bound, a set and a column");
   }
-  const bool has_value =
-      kind->needs_value || count_ == 4 ||
-      (count_ == 3 && data_.column_names.Find(fields_[2]) < 0 &&
-       data_.column_names.Find(fields_[1]) >= 0);
+  const bool has_value = kind->needs_value || count_ == 4 ||
+                         (count_ == 3 && data_.column_names.Find(fields_[2]) < 0 &&
+                          data_.column_names.Find(fields_[1]) >= 0);
   const std::size_t column = count_ - (has_value ? 2 : 1);
   if (column > 1 && !TakeSet(column)) return;
   const double value = has_value ? Side(fields_[column + 1]) : 0;

@@ -10,8 +10,8 @@ namespace {
 constexpr double kNotGiven = std::numeric_limits<double>::quiet_NaN();
 
 std::string_view WithoutFirstWord(std::string_view line) {
-  const std::size_t end = static_cast<std::size_t>(
-      std::find_if(line.begin(), line.end(), IsBlank) - line.begin());
+  const std::size_t end =
+      static_cast<std::size_t>(std::find_if(line.begin(), line.end(), IsBlank) - line.begin());
   return Trimmed(line.substr(end));
 }
 
@@ -129,7 +129,8 @@ void MpsParser::EnterSection() {
 void MpsParser::NameHeader() {
   if (count_ > 1) data_.name = fields_[1];
   if (count_ > 2) {
-    notes_.Count("NAME: what stands behind the first word is left out", WithoutFirstWord(Line()));
+    notes_.Count("NAME: what stands behind the first word is left out",
+                 WithoutFirstWord(WithoutFirstWord(Line())));
   }
 }
 
@@ -152,21 +153,22 @@ void MpsParser::RowsHeader() {
 void MpsParser::ColumnsHeader() {
   if (count_ > 1) text_.Fail(fields_[1], "nothing behind COLUMNS");
   last_column_.assign(data_.rows.size(), -1);
-  CheckRowNames();
+  ChooseObjective();
 }
 
 void MpsParser::QuadraticHeader() {
   for (const std::string_view other : {"QUADOBJ", "QSECTION", "QMATRIX"}) {
     const bool there = std::find(entered_.begin(), entered_.end(), other) != entered_.end();
     if (other != section_->name && there) {
-      text_.Fail(fields_[0], "the quadratic objective once", Text(section_->name, " behind ", other));
+      text_.Fail(fields_[0], "the quadratic objective once",
+                 Text(section_->name, " behind ", other));
     }
   }
   if (count_ == 1) return;
   const int row = data_.row_names.Find(fields_[1]);
   if (row < 0 || data_.rows[static_cast<std::size_t>(row)].number != MpsRow::kObjective) {
-    text_.Fail(fields_[1], Text("the objective behind ", section_->name,
-                                " (a quadratic row cannot be held)"));
+    text_.Fail(fields_[1],
+               Text("the objective behind ", section_->name, " (a quadratic row cannot be held)"));
   }
 }
 
@@ -197,13 +199,14 @@ void MpsParser::RowLine() {
     text_.Fail(fields_[0], "a type of row: N, L, G or E");
   }
   if (data_.row_names.Add(fields_[1]) < 0) text_.Fail(fields_[1], "a row that is new");
+  NoteBlanks(fields_[1]);
   const char type = fields_[0][0];
-  data_.rows.push_back({type, type == 'N' ? MpsRow::kDropped : data_.num_rows++, kNotGiven,
-                        kNotGiven});
+  data_.rows.push_back(
+      {type, type == 'N' ? MpsRow::kDropped : data_.num_rows++, kNotGiven, kNotGiven});
 }
 
 // The objective is the N row that OBJNAME names, or the first.
-void MpsParser::CheckRowNames() {
+void MpsParser::ChooseObjective() {
   bool found = false;
   for (std::size_t i = 0; i < data_.rows.size(); ++i) {
     MpsRow& row = data_.rows[i];
@@ -218,6 +221,10 @@ void MpsParser::CheckRowNames() {
   }
   if (!found && !objective_name_.empty()) text_.Fail(objective_name_, "the name of an N row");
   if (!found) notes_.Say("there is no N row: the objective is 0");
+}
+
+void MpsParser::NoteBlanks(std::string_view name) {
+  if (std::any_of(name.begin(), name.end(), IsBlank)) *blanks_in_names_ = true;
 }
 
 MpsRow& MpsParser::RowNamed(std::string_view name) {
@@ -242,27 +249,25 @@ void MpsParser::Finish() {
   }
 }
 
-MpsData ParseMps(const FileText& text, MpsLayout layout, Notes* notes) {
-  return MpsParser(text, layout, notes).Parse();
-}
-
 std::unique_ptr<MathematicalProgram> ReadMps(const FileText& text, Notes* notes) {
-  const auto read = [&](MpsLayout layout) {
+  const auto read = [&](MpsLayout layout, bool* blanks_in_names) {
     Notes noted = *notes;
-    auto program = BuildMpsProgram(text, ParseMps(text, layout, &noted), &noted);
+    MpsParser parser(text, layout, &noted, blanks_in_names);
+    auto program = BuildMpsProgram(text, parser.Parse(), &noted);
     *notes = std::move(noted);
     return program;
   };
+  bool blanks_in_names = false;
   try {
-    return read(MpsLayout::kFree);
+    return read(MpsLayout::kFree, &blanks_in_names);
   } catch (const FileError& free) {
     try {
-      auto program = read(MpsLayout::kFixed);
-      notes->Say(Text("fixed MPS, with blanks in names: at line ", free.line(),
-                      " it is no free MPS"));
+      auto program = read(MpsLayout::kFixed, &blanks_in_names);
+      notes->Say(
+          Text("fixed MPS, with blanks in names: at line ", free.line(), " it is no free MPS"));
       return program;
-    } catch (const FileError& fixed) {
-      if (fixed.line() > free.line()) throw;
+    } catch (const FileError&) {
+      if (blanks_in_names) throw;
     }
     throw;
   }

@@ -13,16 +13,21 @@ namespace switchyard::io {
 
 class MpsParser {
  public:
-  MpsParser(const FileText& text, MpsLayout layout, Notes* notes)
-      : text_(text), layout_(layout), notes_(*notes), lines_(text) {}
+  /// *blanks_in_names is set where a row or column is met whose name has a blank.
+  MpsParser(const FileText& text, MpsLayout layout, Notes* notes, bool* blanks_in_names)
+      : text_(text),
+        layout_(layout),
+        notes_(*notes),
+        blanks_in_names_(blanks_in_names),
+        lines_(text) {}
   MpsData Parse();
 
  private:
   struct Section {
     std::string_view name;
-    void (MpsParser::*header)();      // nullptr: the header is one word
-    void (MpsParser::*line)();        // nullptr: has no lines
-    std::string_view needs;           // the section that stands before it
+    void (MpsParser::*header)();  // nullptr: the header is one word
+    void (MpsParser::*line)();    // nullptr: has no lines
+    std::string_view needs;       // the section that stands before it
   };
   struct BoundKind {
     std::string_view name;
@@ -46,7 +51,10 @@ class MpsParser {
   void QuadraticHeader();
   void RowsHeader();
   void ColumnsHeader();
-  void SideHeader() { set_ = {}; set_known_ = false; }
+  void SideHeader() {
+    set_ = {};
+    set_known_ = false;
+  }
   void MatrixHeader();
 
   void SenseLine();
@@ -60,7 +68,8 @@ class MpsParser {
 
   void Marker();
   void StartColumn(std::string_view name);
-  void CheckRowNames();
+  void ChooseObjective();
+  void NoteBlanks(std::string_view name);
   void AddCoefficient(std::string_view row, std::string_view value);
   /// Names and numbers in pairs behind an optional name of the set; false: not of the first set.
   bool TakeSet(std::size_t first_pair);
@@ -72,19 +81,42 @@ class MpsParser {
 
   void ApplyLower(MpsColumn* c, double v) { SetLower(c, v); }
   void ApplyUpper(MpsColumn* c, double v) { SetUpper(c, v); }
-  void ApplyFixed(MpsColumn* c, double v) { SetLower(c, v); SetUpper(c, v); }
-  void ApplyFree(MpsColumn* c, double) { SetLower(c, -kInfinity); SetUpper(c, kInfinity); }
+  void ApplyFixed(MpsColumn* c, double v) {
+    SetLower(c, v);
+    SetUpper(c, v);
+  }
+  void ApplyFree(MpsColumn* c, double) {
+    SetLower(c, -kInfinity);
+    SetUpper(c, kInfinity);
+  }
   void ApplyMinusInfinity(MpsColumn* c, double) { SetLower(c, -kInfinity); }
   void ApplyPlusInfinity(MpsColumn* c, double) { SetUpper(c, kInfinity); }
-  void ApplyBinary(MpsColumn* c, double) { SetLower(c, 0); SetUpper(c, 1); c->integer = true; }
-  void ApplyIntegerLower(MpsColumn* c, double v) { SetLower(c, v); c->integer = true; }
-  void ApplyIntegerUpper(MpsColumn* c, double v) { SetUpper(c, v); c->integer = true; }
-  void ApplySemicontinuous(MpsColumn* c, double v) { SetUpper(c, v); c->semicontinuous = true; }
-  void ApplySemiInteger(MpsColumn* c, double v) { ApplySemicontinuous(c, v); c->integer = true; }
+  void ApplyBinary(MpsColumn* c, double) {
+    SetLower(c, 0);
+    SetUpper(c, 1);
+    c->integer = true;
+  }
+  void ApplyIntegerLower(MpsColumn* c, double v) {
+    SetLower(c, v);
+    c->integer = true;
+  }
+  void ApplyIntegerUpper(MpsColumn* c, double v) {
+    SetUpper(c, v);
+    c->integer = true;
+  }
+  void ApplySemicontinuous(MpsColumn* c, double v) {
+    SetUpper(c, v);
+    c->semicontinuous = true;
+  }
+  void ApplySemiInteger(MpsColumn* c, double v) {
+    ApplySemicontinuous(c, v);
+    c->integer = true;
+  }
 
   const FileText& text_;
   MpsLayout layout_;
   Notes& notes_;
+  bool* blanks_in_names_;
   Lines lines_;
   MpsData data_;
   std::array<std::string_view, 7> fields_;

@@ -17,8 +17,9 @@ bool TooLarge(double side) { return std::isfinite(side) && std::abs(side) >= kMp
 
 // Can a field of free MPS be this name? It is not empty, has no blanks, and is no marker.
 bool Writable(std::string_view name) {
-  return !name.empty() && name != "'MARKER'" &&
-         std::none_of(name.begin(), name.end(), [](char c) { return (c >= 0 && c <= ' ') || c == 0x7F; });
+  return !name.empty() && name != "'MARKER'" && std::none_of(name.begin(), name.end(), [](char c) {
+    return (c >= 0 && c <= ' ') || c == 0x7F;
+  });
 }
 
 // The names as they are where they can be written and are new, and others made from `stem` and the
@@ -136,7 +137,8 @@ void MpsWriter::ChooseNames() {
 void MpsWriter::Header() {
   std::string name = program_.name();
   if (!name.empty() && !Writable(name)) {
-    std::replace_if(name.begin(), name.end(), [](char c) { return c >= 0 && c <= ' '; }, '_');
+    std::replace_if(
+        name.begin(), name.end(), [](char c) { return c >= 0 && c <= ' '; }, '_');
     notes_.Say(Text("the name of the program is written as ", Quoted(name)));
   }
   out_ += name.empty() ? "NAME\n" : "NAME " + name + "\n";
@@ -146,7 +148,8 @@ void MpsWriter::Header() {
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     switch (KindOf(i)) {
       case RowKind::kFree:
-        notes_.Count("a row without sides is written as an N row, which readers leave out", rows_[i]);
+        notes_.Count("a row without sides is written as an N row, which readers leave out",
+                     rows_[i]);
         Line({"N", rows_[i]});
         break;
       case RowKind::kLess:
@@ -161,7 +164,8 @@ void MpsWriter::Header() {
       case RowKind::kRange: {
         const Range range = RangeOf(flat_.row_lower[i], flat_.row_upper[i]);
         if (!range.exact) {
-          notes_.Count("one side of a row moves by a rounding, as a range is a difference", rows_[i]);
+          notes_.Count("one side of a row moves by a rounding, as a range is a difference",
+                       rows_[i]);
         }
         Line({std::string_view(&range.type, 1), rows_[i]});
         break;
@@ -198,9 +202,9 @@ void MpsWriter::Sides() {
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const RowKind kind = KindOf(i);
     if (kind == RowKind::kFree) continue;
-    const bool upper = kind == RowKind::kLess ||
-                       (kind == RowKind::kRange &&
-                        RangeOf(flat_.row_lower[i], flat_.row_upper[i]).type == 'L');
+    const bool upper =
+        kind == RowKind::kLess ||
+        (kind == RowKind::kRange && RangeOf(flat_.row_lower[i], flat_.row_upper[i]).type == 'L');
     const double rhs = upper ? flat_.row_upper[i] : flat_.row_lower[i];
     if (rhs != 0) Line({"RHS", rows_[i]}, rhs);
   }

@@ -118,8 +118,8 @@ bool ParseNumber(std::string_view field, double* value) {
   // from_chars knows one letter for exponents, Fortran writes another.
   std::array<char, 64> copy;
   if (field.size() > copy.size()) return false;
-  std::replace_copy_if(field.begin(), field.end(), copy.begin(),
-                       [](char c) { return c == 'd' || c == 'D'; }, 'e');
+  std::replace_copy_if(
+      field.begin(), field.end(), copy.begin(), [](char c) { return c == 'd' || c == 'D'; }, 'e');
   const char* const copy_end = copy.data() + field.size();
   const auto again = std::from_chars(copy.data(), copy_end, *value);
   return again.ec == std::errc() && again.ptr == copy_end && std::isfinite(*value);
@@ -129,19 +129,19 @@ bool ParseInfinity(std::string_view field, double* value) {
   const bool negative = !field.empty() && field[0] == '-';
   if (!field.empty() && (field[0] == '-' || field[0] == '+')) field.remove_prefix(1);
   if (!EqualsIgnoringCase(field, "inf") && !EqualsIgnoringCase(field, "infinity")) return false;
-  *value = negative ? -std::numeric_limits<double>::infinity()
-                    : std::numeric_limits<double>::infinity();
+  *value =
+      negative ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::infinity();
   return true;
 }
 
-FileText::FileText(std::string_view bytes, std::string file) : bytes_(bytes), file_(std::move(file)) {
+FileText::FileText(std::string_view bytes, std::string file)
+    : bytes_(bytes), file_(std::move(file)) {
   const std::size_t nul = bytes_.find('\0');
   if (nul != std::string_view::npos) Fail(bytes_.substr(nul, 1), "text");
   for (std::size_t start = 0; start < bytes_.size();) {
     const std::size_t end = std::min(bytes_.find('\n', start), bytes_.size());
     if (end - start > kLineLimit) {
-      Fail(bytes_.substr(start, end - start),
-           Text("a line of at most ", kLineLimit, " bytes"),
+      Fail(bytes_.substr(start, end - start), Text("a line of at most ", kLineLimit, " bytes"),
            Text("one of ", end - start));
     }
     start = end + 1;
@@ -158,8 +158,10 @@ void FileText::Fail(std::string_view at, const std::string& expected) const {
   Fail(at, expected, ended ? "the end of the file" : "the end of the line");
 }
 
-void FileText::Fail(std::string_view at, const std::string& expected, const std::string& found) const {
-  const std::string_view before = bytes_.substr(0, static_cast<std::size_t>(at.data() - bytes_.data()));
+void FileText::Fail(std::string_view at, const std::string& expected,
+                    const std::string& found) const {
+  const std::string_view before =
+      bytes_.substr(0, static_cast<std::size_t>(at.data() - bytes_.data()));
   const std::size_t newline = before.rfind('\n');
   const std::size_t start = newline == std::string_view::npos ? 0 : newline + 1;
   throw FileError(file_, LineOf(at), ToInt(static_cast<std::ptrdiff_t>(before.size() - start)) + 1,
@@ -214,8 +216,8 @@ void Notes::Finish() {
     } else if (kind.count == 1) {
       sink_->push_back(Text(kind.what, " (", Quoted(kind.example), ")"));
     } else {
-      sink_->push_back(Text(kind.what, " (", kind.count, " times, first: ",
-                                        Quoted(kind.example), ")"));
+      sink_->push_back(
+          Text(kind.what, " (", kind.count, " times, first: ", Quoted(kind.example), ")"));
     }
   }
   kinds_.clear();

@@ -1,0 +1,6 @@
+NAME
+ROWS
+ N o
+ X r
+COLUMNS
+ENDATA

@@ -1,0 +1,19 @@
+NAME q FREE
+OBJSENSE MAXIMIZE
+ROWS
+ N o
+ E r
+COLUMNS
+ x r 1
+ y r 1
+RHS
+ r 1e30D0
+ r 1
+BOUNDS
+ BV x
+ MI y
+ UP y 1e30
+QUADOBJ
+ x x -2
+ y x .5
+ENDATA

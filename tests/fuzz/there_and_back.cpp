@@ -1,0 +1,59 @@
+#include "tests/fuzz/there_and_back.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "switchyard/io/read.hpp"
+#include "switchyard/io/write.hpp"
+#include "tests/io/same_program.hpp"
+
+namespace switchyard::fuzz {
+namespace {
+
+[[noreturn]] void Fail(const std::string& why, std::string_view text) {
+  std::fprintf(stderr, "%s\n%.*s\n", why.c_str(), static_cast<int>(text.size()), text.data());
+  std::abort();
+}
+
+bool IsPlaceOf(const FileError& error, std::string_view text) {
+  const auto lines = 1 + std::count(text.begin(), text.end(), '\n');
+  return error.line() >= 1 && error.line() <= lines && error.column() >= 1 &&
+         static_cast<std::size_t>(error.column()) <= text.size() + 1;
+}
+
+// A row without sides is left out by readers, and a range is a difference that may be rounded: the
+// writer says so, and then the program read is another.
+bool SaysItIsAnother(const std::vector<std::string>& notes) {
+  return std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
+    return note.starts_with("a row without sides") || note.starts_with("one side of a row moves") ||
+           note.starts_with("a row with two sides") || note.starts_with("a bound of a variable");
+  });
+}
+
+}  // namespace
+
+void ReadThereAndBack(const std::uint8_t* data, std::size_t size, FileFormat format) {
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  std::vector<std::string> notes;
+  std::unique_ptr<MathematicalProgram> program;
+  try {
+    program = ReadProgramText(text, "file", {.format = format, .notes = &notes});
+  } catch (const FileError& error) {
+    if (!IsPlaceOf(error, text)) Fail(std::string("no place of the file: ") + error.what(), text);
+    return;
+  }
+  notes.clear();
+  if (!CannotHold(*program, format).empty()) return;
+  const std::string written = ProgramText(*program, format, &notes);
+  if (SaysItIsAnother(notes)) return;
+  const auto again = ReadProgramText(written, "written", {.format = format});
+  const std::string difference = testing::Difference(*program, *again);
+  if (!difference.empty()) Fail("read, written, read: " + difference + "\n" + written, text);
+}
+
+}  // namespace switchyard::fuzz

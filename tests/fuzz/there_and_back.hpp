@@ -1,0 +1,16 @@
+// tests/fuzz/there_and_back.hpp - what a reader promises of any bytes.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "switchyard/io/format.hpp"
+
+namespace switchyard::fuzz {
+
+/// Reads the bytes. Whatever they are, this ends in a program or in a FileError whose place is in
+/// them; a program, where the format can hold it, is written, read again and the same.
+/// Aborts, with a sentence, where that does not hold.
+void ReadThereAndBack(const std::uint8_t* data, std::size_t size, FileFormat format);
+
+}  // namespace switchyard::fuzz
