@@ -38,26 +38,77 @@ void WriteQuadratic(const SparseMatrix& Q, const std::vector<int>& index, double
 
 }  // namespace
 
-Lowering::Lowering(const MathematicalProgram& program) {
+Lowering::Lowering(const MathematicalProgram& program) : stamps_(StampsOf(program)) {
   Write(program);
   problem_ = Problem(builder_.Finish());
 }
 
+Lowering::Stamps Lowering::StampsOf(const MathematicalProgram& program) {
+  const auto sum = [](const auto& bindings) {
+    std::uint64_t total = 0;
+    for (const auto& binding : bindings) total += binding.evaluator()->version();
+    return total;
+  };
+  return {program.structure_version(), sum(program.linear_costs()),
+          sum(program.bounding_box_constraints()),
+          sum(program.quadratic_costs()) + sum(program.norm_costs()) +
+              sum(program.affine_constraints()) + sum(program.cone_constraints())};
+}
+
 std::uint64_t Lowering::Refresh(const MathematicalProgram& program) {
+  const Stamps now = StampsOf(program);
+  const bool linear = now.linear_costs != stamps_.linear_costs;
+  const bool boxes = now.boxes != stamps_.boxes;
+  const bool rest = now.structure != stamps_.structure || now.others != stamps_.others;
+  if (!linear && !boxes && !rest) return 0;
+  std::uint64_t kinds = 0;
+  if (!rest && RefreshVectors(program, now)) {
+    kinds = ProblemDifference(previous_.data(), problem_.data(), kVectorsAlone);
+  } else {
+    kinds = RefreshAll(program);
+  }
+  stamps_ = now;
+  return kinds;
+}
+
+// Costs and bounds of variables alone: nothing is sorted, no matrix is written. False: a bound
+// appeared where there was none, so the section does.
+bool Lowering::RefreshVectors(const MathematicalProgram& program, const Stamps& now) {
+  ProblemData next = problem_.data();
+  if (now.boxes != stamps_.boxes) {
+    Bounds bounds = BoundsOf(program);
+    if (next.x_lower.empty()) return false;
+    std::copy(bounds.lower.begin(), bounds.lower.end(), next.x_lower.begin());
+    std::copy(bounds.upper.begin(), bounds.upper.end(), next.x_upper.begin());
+    crossed_ = bounds.crossed;
+  }
+  if (now.linear_costs != stamps_.linear_costs) {
+    const Linear linear = LinearOf(program);
+    std::copy(linear.q.begin(), linear.q.end(), next.q.begin());
+    next.offset = linear.offset;
+  }
+  previous_ = std::move(problem_);
+  problem_ = Problem(std::move(next));
+  return true;
+}
+
+std::uint64_t Lowering::RefreshAll(const MathematicalProgram& program) {
   builder_.Rewrite();
   Write(program);
   ProblemData fresh = builder_.Finish();
-  const bool same_sizes = fresh.num_vars == problem_.data().num_vars &&
-                          fresh.num_rows() == problem_.data().num_rows() &&
-                          fresh.num_cone_rows() == problem_.data().num_cone_rows();
+  previous_ = std::move(problem_);
+  const ProblemData& before = previous_.data();
+  const bool same_sizes = fresh.num_vars == before.num_vars &&
+                          fresh.num_rows() == before.num_rows() &&
+                          fresh.num_cone_rows() == before.num_cone_rows();
   if (!same_sizes || !builder_.SamePatterns()) {
     builder_ = ProblemBuilder();
     Write(program);
     problem_ = Problem(builder_.Finish());
     return kStructureChanged;
   }
-  const std::uint64_t kinds = ProblemDifference(problem_.data(), fresh);
-  if (kinds != 0) problem_ = Problem(std::move(fresh));
+  const std::uint64_t kinds = ProblemDifference(before, fresh);
+  problem_ = Problem(std::move(fresh));
   return kinds;
 }
 
@@ -74,28 +125,56 @@ void Lowering::Write(const MathematicalProgram& program) {
   WriteCosts(program);
 }
 
-void Lowering::WriteVariables(const MathematicalProgram& program) {
-  builder_.AddVariables(program.num_vars());
+Lowering::Bounds Lowering::BoundsOf(const MathematicalProgram& program) {
+  const auto count = static_cast<std::size_t>(program.num_vars());
+  Bounds bounds{std::vector<double>(count, -kInfinity), std::vector<double>(count, kInfinity), -1};
   for (int j = 0; j < program.num_vars(); ++j) {
-    const VariableType type = program.variable_type(j);
-    if (type == VariableType::kContinuous) continue;
-    builder_.integer[At(j)] = 1;
-    if (type == VariableType::kBinary) {
-      builder_.x_lower[At(j)] = 0;
-      builder_.x_upper[At(j)] = 1;
-    }
+    if (program.variable_type(j) != VariableType::kBinary) continue;
+    bounds.lower[At(j)] = 0;
+    bounds.upper[At(j)] = 1;
   }
   for (const auto& box : program.bounding_box_constraints()) {
     const auto index = program.FindDecisionVariableIndices(box.variables());
     for (std::size_t k = 0; k < index.size(); ++k) {
-      double& lower = builder_.x_lower[At(index[k])];
-      double& upper = builder_.x_upper[At(index[k])];
+      double& lower = bounds.lower[At(index[k])];
+      double& upper = bounds.upper[At(index[k])];
       const auto row = static_cast<Eigen::Index>(k);
       lower = std::max(lower, box.evaluator()->lower_bound()[row]);
       upper = std::min(upper, box.evaluator()->upper_bound()[row]);
-      if (lower > upper && crossed_ < 0) crossed_ = index[k];
+      if (lower > upper && bounds.crossed < 0) bounds.crossed = index[k];
     }
   }
+  return bounds;
+}
+
+Lowering::Linear Lowering::LinearOf(const MathematicalProgram& program) {
+  const double sign = program.objective_sense() == ObjectiveSense::kMaximize ? -1 : 1;
+  Linear linear{std::vector<double>(static_cast<std::size_t>(program.num_vars()), 0.0), 0};
+  const auto add = [&](const auto& binding, const Eigen::VectorXd& a, double constant) {
+    const auto index = program.FindDecisionVariableIndices(binding.variables());
+    for (std::size_t k = 0; k < index.size(); ++k) {
+      linear.q[At(index[k])] += sign * a[static_cast<Eigen::Index>(k)];
+    }
+    linear.offset += sign * constant;
+  };
+  for (const auto& binding : program.linear_costs()) {
+    add(binding, binding.evaluator()->a(), binding.evaluator()->b());
+  }
+  for (const auto& binding : program.quadratic_costs()) {
+    add(binding, binding.evaluator()->b(), binding.evaluator()->c());
+  }
+  return linear;
+}
+
+void Lowering::WriteVariables(const MathematicalProgram& program) {
+  builder_.AddVariables(program.num_vars());
+  for (int j = 0; j < program.num_vars(); ++j) {
+    builder_.integer[At(j)] = program.variable_type(j) != VariableType::kContinuous ? 1 : 0;
+  }
+  Bounds bounds = BoundsOf(program);
+  builder_.x_lower = std::move(bounds.lower);
+  builder_.x_upper = std::move(bounds.upper);
+  crossed_ = bounds.crossed;
 }
 
 void Lowering::WriteConstraints(const MathematicalProgram& program) {
@@ -133,21 +212,13 @@ void Lowering::WriteConstraints(const MathematicalProgram& program) {
 
 void Lowering::WriteCosts(const MathematicalProgram& program) {
   const double sign = maximize_ ? -1 : 1;
-  const auto add_linear = [&](const Eigen::VectorXd& a, const std::vector<int>& index) {
-    for (std::size_t k = 0; k < index.size(); ++k) {
-      builder_.q[At(index[k])] += sign * a[static_cast<Eigen::Index>(k)];
-    }
-  };
-  for (const auto& binding : program.linear_costs()) {
-    add_linear(binding.evaluator()->a(), program.FindDecisionVariableIndices(binding.variables()));
-    builder_.offset += sign * binding.evaluator()->b();
-  }
+  Linear linear = LinearOf(program);
+  builder_.q = std::move(linear.q);
+  builder_.offset = linear.offset;
   for (const auto& binding : program.quadratic_costs()) {
     const QuadraticCost& cost = *binding.evaluator();
-    const auto index = program.FindDecisionVariableIndices(binding.variables());
-    WriteQuadratic(cost.Q(), index, sign, builder_.P);
-    add_linear(cost.b(), index);
-    builder_.offset += sign * cost.c();
+    WriteQuadratic(cost.Q(), program.FindDecisionVariableIndices(binding.variables()), sign,
+                   builder_.P);
     const bool convex =
         maximize_ ? QuadraticCost(SparseMatrix(-cost.Q()), cost.b()).is_convex() : cost.is_convex();
     if (!convex) builder_.flags &= ~std::uint32_t{SY_PROBLEM_CONVEX};
@@ -208,7 +279,8 @@ std::vector<double> Lowering::Extend(const MathematicalProgram& program,
       const Eigen::VectorXd z = (cost.A() * values + cost.b()).cwiseAbs();
       std::copy(z.data(), z.data() + z.size(), all.begin() + static_cast<std::ptrdiff_t>(t));
     } else {
-      all[t] = program.EvalBinding(binding, x)[0];
+      const double value = program.EvalBinding(binding, x)[0];
+      all[t] = std::isinf(value) ? std::nan("") : value;
     }
   }
   return all;

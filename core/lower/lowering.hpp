@@ -40,7 +40,7 @@ class Lowering {
   }
 
   /// A point of all variables from one of the program's: epigraph variables at their least values;
-  /// NaN where x is.
+  /// NaN where x is, and where no value is finite.
   [[nodiscard]] std::vector<double> Extend(const MathematicalProgram& program,
                                            const Eigen::VectorXd& x) const;
 
@@ -49,6 +49,29 @@ class Lowering {
                                       const std::string& text) const;
 
  private:
+  /// Sums of versions: equal exactly where nothing of that kind changed.
+  struct Stamps {
+    std::uint64_t structure = 0;
+    std::uint64_t linear_costs = 0;
+    std::uint64_t boxes = 0;
+    std::uint64_t others = 0;
+  };
+  /// The linear part of the objective, without that of epigraph variables.
+  struct Linear {
+    std::vector<double> q;
+    double offset = 0;
+  };
+  struct Bounds {
+    std::vector<double> lower;
+    std::vector<double> upper;
+    int crossed = -1;
+  };
+  static Stamps StampsOf(const MathematicalProgram& program);
+  static Linear LinearOf(const MathematicalProgram& program);
+  static Bounds BoundsOf(const MathematicalProgram& program);
+
+  bool RefreshVectors(const MathematicalProgram& program, const Stamps& now);
+  std::uint64_t RefreshAll(const MathematicalProgram& program);
   void Write(const MathematicalProgram& program);
   void WriteVariables(const MathematicalProgram& program);
   void WriteCosts(const MathematicalProgram& program);
@@ -59,6 +82,8 @@ class Lowering {
 
   ProblemBuilder builder_;
   Problem problem_;
+  Problem previous_;  // before the last refresh: a backend may refer to it until its update
+  Stamps stamps_;
   std::vector<std::int32_t> affine_row_;
   std::vector<std::int32_t> cone_row_;
   std::vector<std::int32_t> norm_variable_;  // the first epigraph variable of each norm cost

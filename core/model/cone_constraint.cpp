@@ -134,6 +134,7 @@ ConeConstraint::ConeConstraint(std::string_view kind, CoefficientMatrix&& A, con
 
 void ConeConstraint::UpdateCoefficients(CoefficientMatrix A, const VectorRef& b) {
   CheckAndStore(Name(), std::move(A), b);
+  CoefficientsChanged();
 }
 
 void ConeConstraint::CheckAndStore(std::string_view name, CoefficientMatrix A, const VectorRef& b) {

@@ -79,6 +79,7 @@ void LinearConstraint::UpdateCoefficients(CoefficientMatrix A, const VectorRef& 
   CheckSize(Name(), "upper", upper, num_constraints());
   CheckForm(A.sparse(), lower, upper);
   CheckAndStore(Name(), std::move(A), lower, upper);
+  CoefficientsChanged();
 }
 
 void LinearConstraint::CheckAndStore(std::string_view name, CoefficientMatrix A,
@@ -110,6 +111,7 @@ BoundingBoxConstraint::BoundingBoxConstraint(const VectorRef& lower, const Vecto
 
 void BoundingBoxConstraint::UpdateBounds(const VectorRef& lower, const VectorRef& upper) {
   SetBounds(Name(), lower, upper);
+  CoefficientsChanged();
 }
 
 void BoundingBoxConstraint::CheckForm(const SparseMatrix& A, const VectorRef&,

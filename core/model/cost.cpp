@@ -38,6 +38,7 @@ void LinearCost::UpdateCoefficients(const VectorRef& a, double b) {
   CheckFinite(name, "b", b);
   a_ = a;
   b_ = b;
+  CoefficientsChanged();
 }
 
 Eigen::VectorXd LinearCost::DoEval(const VectorRef& x) const { return One(a_.dot(x) + b_); }
@@ -60,6 +61,7 @@ void QuadraticCost::UpdateCoefficients(const CoefficientMatrix& Q, const VectorR
   b_ = b;
   c_ = c;
   is_convex_ = is_convex ? *is_convex : IsPositiveSemidefinite(Q_);
+  CoefficientsChanged();
 }
 
 Eigen::VectorXd QuadraticCost::DoEval(const VectorRef& x) const {
@@ -73,6 +75,7 @@ NormCost::NormCost(Norm norm, const CoefficientMatrix& A, const VectorRef& b)
 
 void NormCost::UpdateCoefficients(const CoefficientMatrix& A, const VectorRef& b) {
   CheckAndStore(A, b, A_.rows());
+  CoefficientsChanged();
 }
 
 void NormCost::CheckAndStore(const CoefficientMatrix& A, const VectorRef& b, Eigen::Index rows) {

@@ -60,6 +60,7 @@ void MathematicalProgram::CheckVariables(const EvaluatorBase& evaluator,
 // ---- Costs ----
 
 Binding<Cost> MathematicalProgram::AddCost(const Binding<Cost>& binding) {
+  ++structure_version_;
   CheckVariables(*binding.evaluator(), binding.variables());
   if (!StoreAs(binding, &linear_costs_) && !StoreAs(binding, &quadratic_costs_) &&
       !StoreAs(binding, &norm_costs_)) {
@@ -136,6 +137,7 @@ Binding<L2NormCost> MathematicalProgram::AddL2NormCost(const CoefficientMatrix& 
 // ---- Constraints ----
 
 Binding<Constraint> MathematicalProgram::AddConstraint(const Binding<Constraint>& binding) {
+  ++structure_version_;
   CheckVariables(*binding.evaluator(), binding.variables());
   if (!StoreAs(binding, &bounding_boxes_) && !StoreAs(binding, &affine_) &&
       !StoreAs(binding, &cones_)) {
@@ -238,11 +240,13 @@ Binding<LinearMatrixInequalityConstraint> MathematicalProgram::AddLinearMatrixIn
 // ---- Removing, listing ----
 
 int MathematicalProgram::RemoveCost(const Binding<Cost>& cost) {
+  ++structure_version_;
   return EraseEqual(cost, &linear_costs_) + EraseEqual(cost, &quadratic_costs_) +
          EraseEqual(cost, &norm_costs_);
 }
 
 int MathematicalProgram::RemoveConstraint(const Binding<Constraint>& constraint) {
+  ++structure_version_;
   return EraseEqual(constraint, &bounding_boxes_) + EraseEqual(constraint, &affine_) +
          EraseEqual(constraint, &cones_);
 }

@@ -27,6 +27,7 @@ std::unique_ptr<MathematicalProgram> MathematicalProgram::Clone() const {
 }
 
 VectorXDecisionVariable MathematicalProgram::AddBlock(std::int64_t count, VariableType type) {
+  ++structure_version_;
   constexpr std::int64_t kMost = std::numeric_limits<int>::max();
   Require(count <= kMost - num_vars(), "new variables: a program holds at most ", kMost,
           ", this one has ", num_vars(), " and got ", count);
@@ -112,6 +113,7 @@ VectorXDecisionVariable MathematicalProgram::NewVariables(std::vector<std::strin
 }
 
 void MathematicalProgram::AddDecisionVariables(const VariableList& variables) {
+  ++structure_version_;
   std::vector<Variable> added;
   std::vector<std::string> names;
   std::unordered_set<Variable> seen;

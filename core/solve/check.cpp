@@ -10,6 +10,9 @@
 namespace switchyard {
 namespace {
 
+// What further passes narrow no longer decides a bound.
+constexpr int kPropagationPasses = 6;
+
 /// values = M x (+ g), and for each row the largest |term|.
 struct RowValues {
   std::vector<double> value;
@@ -35,20 +38,26 @@ RowValues Evaluate(const sy_csc* m, const double* g, std::int32_t rows,
   return r;
 }
 
+/// NaN where the value is: no comparison would see it.
 double Outside(double value, double lower, double upper) {
-  return std::max({0.0, lower - value, value - upper});
+  return std::isnan(value) ? value : std::max({0.0, lower - value, value - upper});
 }
 
 /// Side of a recession: 0 where the bound is finite.
 double Recession(double bound) { return std::isfinite(bound) ? 0 : bound; }
 
-/// The worst violations so far: each relative to its own terms, and absolute.
+/// The worst violations so far: each relative to its own terms, and absolute. One that overflowed
+/// has no ratio, and is infinite.
 struct Worst {
   double relative = 0;
   double absolute = 0;
   double largest_term = 0;
 
   void See(double violation, double own_term) {
+    if (!std::isfinite(violation) || !std::isfinite(own_term)) {
+      relative = absolute = kInfinity;
+      return;
+    }
     relative = std::max(relative, violation / (1 + own_term));
     absolute = std::max(absolute, violation);
     largest_term = std::max(largest_term, own_term);
@@ -135,15 +144,18 @@ DualCheck CheckDuals(const sy_problem& problem, const Vectors& v, double cutoff)
   const auto data = [](const std::vector<double>& values) {
     return values.empty() ? nullptr : values.data();
   };
-  // A cutoff just above the objective: the boxes then hold an optimal point.
-  const Boxes boxes = ProvenBoxes(problem, cutoff + 1e-6 * (1 + std::abs(cutoff)));
-  const double* lower = boxes.infeasible ? problem.x_lower : boxes.lower.data();
-  const double* upper = boxes.infeasible ? problem.x_upper : boxes.upper.data();
   const auto bound_on = [&](const double* l, const double* u) {
     return SafeDualBound(problem, data(v.x), data(v.row_dual), data(v.cone_dual), l, u);
   };
-  const SafeBound proven = bound_on(lower, upper);
   const SafeBound plain = bound_on(nullptr, nullptr);
+  if (plain.open_column < 0) return {std::min(plain.value, cutoff), plain.estimate, 0, -1};
+  // A cutoff just above the objective: the boxes then hold an optimal point.
+  const Boxes boxes =
+      ProvenBoxes(problem, cutoff + 1e-6 * (1 + std::abs(cutoff)), kPropagationPasses);
+  if (boxes.infeasible) {
+    return {-kInfinity, plain.estimate, OpenWorth(problem, v), plain.open_column};
+  }
+  const SafeBound proven = bound_on(boxes.lower.data(), boxes.upper.data());
   return {std::min(proven.value, cutoff), plain.estimate, OpenWorth(problem, v),
           proven.open_column};
 }
@@ -181,9 +193,14 @@ bool IsUnboundedRay(const sy_problem& problem, const Vectors& v) {
   if (scale == 0 || !std::isfinite(scale)) return false;
   std::vector<double> ray = v.x;
   for (double& x : ray) x /= scale;
+  // A gain has to stand out from what the violations below, up to 1e-9, could feign.
   double slope = 0;
-  for (std::size_t j = 0; j < ray.size(); ++j) slope += problem.q[j] * ray[j];
-  if (slope >= 0) return false;
+  double largest_gain = 0;
+  for (std::size_t j = 0; j < ray.size(); ++j) {
+    slope += problem.q[j] * ray[j];
+    largest_gain = std::max(largest_gain, std::abs(problem.q[j] * ray[j]));
+  }
+  if (!(-slope > 1e-8 * largest_gain)) return false;
   Worst worst;
   for (std::size_t j = 0; problem.x_lower != nullptr && j < ray.size(); ++j) {
     worst.See(Outside(ray[j], Recession(problem.x_lower[j]), Recession(problem.x_upper[j])), 0);

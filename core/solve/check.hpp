@@ -32,8 +32,8 @@ struct DualCheck {
   /// The dual objective on the problem's own bounds, what is left of stationarity on open columns
   /// (a wrong sign against an infinite side) left out: no bound, but what solvers go by.
   double estimate = std::numeric_limits<double>::quiet_NaN();
-  double open_worth = 0;     // what was left out, as an objective, were x no larger than it is
-  int open_column = -1;      // where the proof of `bound` ends; -1: nowhere
+  double open_worth = 0;  // what was left out, as an objective, were x no larger than it is
+  int open_column = -1;   // where the proof of `bound` ends; -1: nowhere
 };
 /// `cutoff`: the objective of a feasible point; the boxes are proven below it.
 DualCheck CheckDuals(const sy_problem& problem, const Vectors& v, double cutoff);

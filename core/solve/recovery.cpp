@@ -89,8 +89,11 @@ void Recovery::IndexVariables() {
   const VectorXDecisionVariable all = program_.decision_variables();
   result_.index_.resize(count);
   std::iota(result_.index_.begin(), result_.index_.end(), 0);
-  std::sort(result_.index_.begin(), result_.index_.end(),
-            [&](int i, int j) { return all[i] < all[j]; });
+  const auto by_id = [&](int i, int j) { return all[i] < all[j]; };
+  if (!std::is_sorted(result_.index_.begin(), result_.index_.end(), by_id)) {
+    std::sort(result_.index_.begin(), result_.index_.end(), by_id);
+  }
+  result_.variables_.reserve(count);
   for (const int j : result_.index_) result_.variables_.push_back(all[j]);
 }
 

@@ -12,17 +12,23 @@
 namespace switchyard {
 namespace {
 
-/// Runs `body` and adds its time to `seconds`.
-template <class Body>
-auto Timed(double& seconds, Body&& body) {
-  struct Clock {
-    double& seconds;
-    std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
-    ~Clock() {
-      seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    }
-  } const clock{seconds};
-  return body();
+/// Adds the time until its end to `seconds`.
+class Timer {
+ public:
+  explicit Timer(double& seconds) : seconds_(seconds) {}
+  Timer(const Timer&) = delete;
+  Timer& operator=(const Timer&) = delete;
+  ~Timer() {
+    seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  double& seconds_;
+  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+double BackendSeconds(const Instance* instance) {
+  return instance == nullptr ? 0 : ServiceOf(*instance).backend_seconds(instance->get());
 }
 
 std::string TextOf(const SolverOptions::OptionValue& value) {
@@ -72,22 +78,25 @@ double SolverSession::State::Spent() const {
 MathematicalProgramResult SolverSession::State::Solve(const std::optional<Eigen::VectorXd>& guess) {
   began_ = Clock::now();
   MathematicalProgramResult result;
-  const std::uint64_t kinds = Timed(result.seconds.lower, [&] { return Lower(result); });
+  const std::uint64_t kinds = [&] {
+    const Timer timer(result.seconds.lower);
+    return Lower();
+  }();
   if (lowering->crossed_variable() >= 0) {
     result.termination = Termination::kInfeasible;
     result.message = "the bounds of " + program.VariableName(lowering->crossed_variable()) +
                      " exclude each other";
-  } else if ((instance != nullptr && (kinds & kStructureChanged) == 0) || Choose(result)) {
+  } else {
     try {
-      SendChanges(kinds);
-      Start(guess);
-      Run(result);
+      if (HandOver(kinds, guess, result)) Run(result);
     } catch (const BackendError& e) {
       result.termination = Termination::kBackendFailed;
       result.message = lowering->WithNames(program, e.what());
+    }
+    if (backend != nullptr) Describe(result);
+    if (result.termination == Termination::kBackendFailed) {
       instance.reset();  // what it holds now is not known
     }
-    Describe(result);
   }
   result.considered = considered;
   result.seconds.total = Spent();
@@ -95,10 +104,35 @@ MathematicalProgramResult SolverSession::State::Solve(const std::optional<Eigen:
   return result;
 }
 
-std::uint64_t SolverSession::State::Lower(MathematicalProgramResult&) {
+std::uint64_t SolverSession::State::Lower() {
   if (lowering.has_value()) return lowering->Refresh(program);
   lowering.emplace(program);
   return 0;
+}
+
+// The problem reaches a backend, whole or as an update. The backend's own part of that time is
+// counted as presolve, the rest as lowering. False: no backend took it.
+bool SolverSession::State::HandOver(std::uint64_t kinds,
+                                    const std::optional<Eigen::VectorXd>& guess,
+                                    MathematicalProgramResult& result) {
+  const double before = BackendSeconds(instance.get());
+  double spent = 0;
+  bool taken = true;
+  {
+    const Timer timer(spent);
+    const bool fresh = instance == nullptr || (kinds & kStructureChanged) != 0;
+    if (fresh) {
+      taken = Choose(result);
+    } else {
+      SendChanges(kinds);
+    }
+    if (taken) Start(guess);
+  }
+  const bool same_instance = BackendSeconds(instance.get()) >= before;
+  const double inside = BackendSeconds(instance.get()) - (same_instance ? before : 0);
+  result.seconds.presolve += inside;
+  result.seconds.lower += std::max(0.0, spent - inside);
+  return taken;
 }
 
 bool SolverSession::State::Choose(MathematicalProgramResult& result) {
@@ -151,7 +185,7 @@ bool SolverSession::State::TryCandidate(const Candidate& candidate, std::string&
     return true;
   } catch (const BackendError& e) {
     if (e.code() == SY_E_ARGUMENT) throw InvalidArgument(e.what());
-    why = e.what();
+    why = e.reason();
     return false;
   }
 }
@@ -263,9 +297,17 @@ void SolverSession::State::Run(MathematicalProgramResult& result) {
 
 bool SolverSession::State::RunOnce(const sy_control& control, MathematicalProgramResult& result) {
   AnswerBuffers answer(lowering->problem().data());
-  Timed(result.seconds.solve, [&] { instance->Solve(control, answer.raw); });
+  const double before = BackendSeconds(instance.get());
+  double spent = 0;
   Recovery recovery(program, *lowering, backend->facts, result);
-  Timed(result.seconds.recover, [&] { recovery.Write(answer); });
+  {
+    const Timer timer(spent);
+    instance->Solve(control, answer.raw);
+    recovery.Write(answer);
+  }
+  const double inside = BackendSeconds(instance.get()) - before;
+  result.seconds.solve += inside;
+  result.seconds.recover += spent - inside;
   return !recovery.doubted();
 }
 

@@ -32,7 +32,9 @@ struct SolverSession::State {
  private:
   using Clock = std::chrono::steady_clock;
 
-  std::uint64_t Lower(MathematicalProgramResult& result);
+  std::uint64_t Lower();
+  bool HandOver(std::uint64_t kinds, const std::optional<Eigen::VectorXd>& guess,
+                MathematicalProgramResult& result);
   bool Choose(MathematicalProgramResult& result);
   bool TryCandidate(const Candidate& candidate, std::string& why);
   void SetOptions(const Backend& chosen, Instance& fresh) const;

@@ -55,23 +55,14 @@ MathematicalProgramResult SolverSession::Solve(
   return state_->Solve(initial_guess);
 }
 
-namespace {
-
-const sy_facade* Served(const Instance& instance) {
-  return static_cast<const sy_facade*>(
-      instance.solver().extension(&instance.solver(), "sy.facade/1"));
-}
-
-}  // namespace
-
 int SolverSession::num_loads() const {
   if (state_->instance == nullptr) return 0;
-  return Served(*state_->instance)->loads(state_->instance->get());
+  return ServiceOf(*state_->instance).loads(state_->instance->get());
 }
 
 int SolverSession::num_updates() const {
   if (state_->instance == nullptr) return 0;
-  return Served(*state_->instance)->updates(state_->instance->get());
+  return ServiceOf(*state_->instance).updates(state_->instance->get());
 }
 
 void SolverSession::Dump(const std::string& path) const {

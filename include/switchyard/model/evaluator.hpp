@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <cstdint>
 #include <string>
 #include <utility>
 
@@ -69,6 +70,9 @@ class SWITCHYARD_EXPORT EvaluatorBase {
     *y = DoEval(x);
   }
 
+  /// Grows with every change of coefficients.
+  [[nodiscard]] std::uint64_t version() const { return version_; }
+
   /// What messages call it.
   void set_description(std::string description) { description_ = std::move(description); }
   [[nodiscard]] const std::string& get_description() const { return description_; }
@@ -78,12 +82,14 @@ class SWITCHYARD_EXPORT EvaluatorBase {
 
  protected:
   EvaluatorBase(int num_vars, int num_outputs) : num_vars_(num_vars), num_outputs_(num_outputs) {}
+  void CoefficientsChanged() { ++version_; }
   [[nodiscard]] virtual Eigen::VectorXd DoEval(const VectorRef& x) const = 0;
 
  private:
   int num_vars_;
   int num_outputs_;
   std::string description_;
+  std::uint64_t version_ = 0;
 };
 
 }  // namespace switchyard

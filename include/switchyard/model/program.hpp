@@ -36,8 +36,15 @@ class SWITCHYARD_EXPORT MathematicalProgram {
 
   void set_name(std::string name) { name_ = std::move(name); }
   [[nodiscard]] const std::string& name() const { return name_; }
-  void set_objective_sense(ObjectiveSense sense) { sense_ = sense; }
+  void set_objective_sense(ObjectiveSense sense) {
+    sense_ = sense;
+    ++structure_version_;
+  }
   [[nodiscard]] ObjectiveSense objective_sense() const { return sense_; }
+
+  /// Grows when variables, bindings or the sense are added, removed or changed; coefficients have
+  /// versions of their own.
+  [[nodiscard]] std::uint64_t structure_version() const { return structure_version_; }
 
   // ---- Variables ----
 
@@ -248,6 +255,7 @@ class SWITCHYARD_EXPORT MathematicalProgram {
 
   std::string name_;
   ObjectiveSense sense_ = ObjectiveSense::kMinimize;
+  std::uint64_t structure_version_ = 0;
   std::vector<Block> blocks_;        // by first_id
   std::vector<Variable> variables_;  // by index, as types_
   std::vector<VariableType> types_;
