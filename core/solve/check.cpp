@@ -11,7 +11,7 @@ namespace switchyard {
 namespace {
 
 // What further passes narrow no longer decides a bound.
-constexpr int kPropagationPasses = 6;
+constexpr int kPropagationPasses = 4;
 
 /// values = M x (+ g), and for each row the largest |term|.
 struct RowValues {
@@ -87,36 +87,55 @@ void SeeCones(const sy_problem& problem, const RowValues& rows, Worst& worst) {
   }
 }
 
-/// What the part of the stationarity Px + q - A'y - F'z whose sign is against an infinite side of x
-/// can be worth in a box of the size of the point: its sum, times the largest |x_j|. Row duals
-/// against infinite sides count as 0.
-double OpenWorth(const sy_problem& problem, const Vectors& v) {
+/// What duals are worth on the problem's own bounds, in plain arithmetic.
+struct PlainDual {
+  double objective = 0;   // open columns left out: r_j of the wrong sign against an infinite side
+  double open_worth = 0;  // their sum |r_j|, times the largest |x_j|
+  bool open = false;
+};
+
+/// r = Px + q - A'y - F'z. Row duals against infinite sides count as 0, cone duals are moved into
+/// their dual cones.
+PlainDual EvaluateDuals(const sy_problem& problem, const Vectors& v) {
   const auto n = static_cast<std::size_t>(problem.num_vars);
-  std::vector<double> rho(problem.q, problem.q + n);
+  PlainDual dual{problem.offset, 0, false};
+  std::vector<double> r(n, 0.0);
   if (problem.P != nullptr && !v.x.empty()) {
-    SymmetricMultiplyAdd(*problem.P, 1, v.x.data(), rho.data());
+    SymmetricMultiplyAdd(*problem.P, 1, v.x.data(), r.data());
+    for (std::size_t j = 0; j < n; ++j) dual.objective -= 0.5 * r[j] * v.x[j];
   }
-  std::vector<double> row_dual = v.row_dual;
-  for (std::size_t i = 0; i < row_dual.size(); ++i) {
-    const double side = row_dual[i] > 0 ? problem.row_lower[i] : problem.row_upper[i];
-    if (std::isinf(side)) row_dual[i] = 0;
+  for (std::size_t j = 0; j < n; ++j) r[j] += problem.q[j];
+  std::vector<double> y = v.row_dual;
+  for (std::size_t i = 0; i < y.size(); ++i) {
+    const double side = y[i] > 0 ? problem.row_lower[i] : problem.row_upper[i];
+    if (std::isinf(side)) y[i] = 0;
+    if (y[i] != 0) dual.objective += y[i] * side;
   }
-  if (problem.A != nullptr && !row_dual.empty()) {
-    TransposedMultiplyAdd(*problem.A, -1, row_dual.data(), rho.data());
+  if (problem.A != nullptr && !y.empty()) TransposedMultiplyAdd(*problem.A, -1, y.data(), r.data());
+  std::vector<double> z = v.cone_dual;
+  for (std::size_t c = 0, at = 0; !z.empty() && c < static_cast<std::size_t>(problem.num_cones);
+       ++c) {
+    const sy_cone& cone = problem.cones[c];
+    FactsOf(cone.kind).into_dual(&z[at], cone.dim, cone.parameter);
+    at += static_cast<std::size_t>(cone.dim);
   }
-  if (problem.F != nullptr && !v.cone_dual.empty()) {
-    TransposedMultiplyAdd(*problem.F, -1, v.cone_dual.data(), rho.data());
-  }
-  double open = 0;
+  for (std::size_t i = 0; i < z.size(); ++i) dual.objective -= problem.g[i] * z[i];
+  if (problem.F != nullptr && !z.empty()) TransposedMultiplyAdd(*problem.F, -1, z.data(), r.data());
   double radius = 1;
   for (std::size_t j = 0; j < n; ++j) {
-    const double lower = problem.x_lower != nullptr ? problem.x_lower[j] : -kInfinity;
-    const double upper = problem.x_upper != nullptr ? problem.x_upper[j] : kInfinity;
-    if (upper == kInfinity) open += std::max(0.0, -rho[j]);
-    if (lower == -kInfinity) open += std::max(0.0, rho[j]);
     if (!v.x.empty()) radius = std::max(radius, std::abs(v.x[j]));
+    if (r[j] == 0) continue;
+    double side = r[j] > 0 ? -kInfinity : kInfinity;
+    if (problem.x_lower != nullptr) side = r[j] > 0 ? problem.x_lower[j] : problem.x_upper[j];
+    if (std::isfinite(side)) {
+      dual.objective += r[j] * side;
+    } else {
+      dual.open = true;
+      dual.open_worth += std::abs(r[j]);
+    }
   }
-  return open * radius;
+  dual.open_worth *= radius;
+  return dual;
 }
 
 }  // namespace
@@ -144,20 +163,23 @@ DualCheck CheckDuals(const sy_problem& problem, const Vectors& v, double cutoff)
   const auto data = [](const std::vector<double>& values) {
     return values.empty() ? nullptr : values.data();
   };
-  const auto bound_on = [&](const double* l, const double* u) {
-    return SafeDualBound(problem, data(v.x), data(v.row_dual), data(v.cone_dual), l, u);
+  const auto bound_on = [&](const double* lower, const double* upper) {
+    return SafeDualBound(problem, data(v.x), data(v.row_dual), data(v.cone_dual), lower, upper);
   };
-  const SafeBound plain = bound_on(nullptr, nullptr);
-  if (plain.open_column < 0) return {std::min(plain.value, cutoff), plain.estimate, 0, -1};
-  // A cutoff just above the objective: the boxes then hold an optimal point.
-  const Boxes boxes =
-      ProvenBoxes(problem, cutoff + 1e-6 * (1 + std::abs(cutoff)), kPropagationPasses);
-  if (boxes.infeasible) {
-    return {-kInfinity, plain.estimate, OpenWorth(problem, v), plain.open_column};
+  const PlainDual plain = EvaluateDuals(problem, v);
+  DualCheck check{-kInfinity, plain.objective, plain.open_worth, -1};
+  SafeBound proven{-kInfinity, 0, -1, 0};
+  if (!plain.open) proven = bound_on(nullptr, nullptr);
+  if (!std::isfinite(proven.value)) {
+    // A cutoff just above the objective: the boxes then hold an optimal point.
+    const Boxes boxes =
+        ProvenBoxes(problem, cutoff + 1e-6 * (1 + std::abs(cutoff)), kPropagationPasses);
+    if (boxes.infeasible) return check;  // by less than the point's own violation
+    proven = bound_on(boxes.lower.data(), boxes.upper.data());
   }
-  const SafeBound proven = bound_on(boxes.lower.data(), boxes.upper.data());
-  return {std::min(proven.value, cutoff), plain.estimate, OpenWorth(problem, v),
-          proven.open_column};
+  check.bound = std::min(proven.value, cutoff);
+  check.open_column = proven.open_column;
+  return check;
 }
 
 bool ProvesInfeasible(const sy_problem& problem, const Vectors& v) {
