@@ -140,6 +140,7 @@ void AddPluginsCommand(CLI::App& app, int& code) {
   command->require_subcommand(1);
 
   CLI::App* list = command->add_subcommand("list", "Each backend, a line");
+  list->footer("Example: switchyard plugins list --json");
   auto as_json = std::make_shared<bool>(false);
   list->add_flag("--json", *as_json, "As JSON");
   list->callback([as_json] {
@@ -152,12 +153,14 @@ void AddPluginsCommand(CLI::App& app, int& code) {
   });
 
   CLI::App* describe = command->add_subcommand("describe", "What a backend can do; its options");
+  describe->footer("Example: switchyard plugins describe highs");
   auto name = std::make_shared<std::string>();
   describe->add_option("NAME", *name, "Id or short name")->required();
   describe->callback([name] { Describe(Host(), *name); });
 
   CLI::App* doctor =
       command->add_subcommand("doctor", "Why a backend is missing, and what to do about it");
+  doctor->footer("Example: switchyard plugins doctor build/lib/switchyard/plugins/highs.so");
   auto file = std::make_shared<std::string>();
   doctor->add_option("FILE.so", *file, "Look at this module alone");
   doctor->callback([file, &code] { code = Doctor(*file); });
