@@ -107,7 +107,7 @@ void CbfBuilder::AddVariables() {
 void CbfBuilder::AddMatrixVariables() {
   for (std::size_t k = 0; k < data_.matrix_vars.size(); ++k) {
     first_of_matrix_.push_back(program_->num_vars());
-    const std::string name = data_.matrix_vars.size() == 1 ? "X" : "X" + std::to_string(k);
+    const std::string name = data_.matrix_vars.size() == 1 ? Text("X") : Text("X", k);
     program_->AddPositiveSemidefiniteConstraint(
         program_->NewSymmetricContinuousVariables(data_.matrix_vars[k], name));
   }

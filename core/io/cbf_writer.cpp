@@ -187,7 +187,7 @@ std::string CbfWriter::PowerCone(double alpha) {
   const auto found = std::find(alphas_.begin(), alphas_.end(), alpha);
   const auto k = found - alphas_.begin();
   if (found == alphas_.end()) alphas_.push_back(alpha);
-  return "@" + std::to_string(k) + ":POW";
+  return Text("@", k, ":POW");
 }
 
 void CbfWriter::AddCone(const Binding<ConeConstraint>& binding) {

@@ -36,14 +36,14 @@ TEST(Numbers, OfOtherKindsAreNone) {
 TEST(Quotes, ShowBytesThatATerminalWouldNot) {
   EXPECT_EQ(Quoted("a\tb\x01"), "\"a\\x09b\\x01\"");
   EXPECT_EQ(Quoted("\xC3\xA4\xE4"), "\"\xC3\xA4\\xE4\"");
-  EXPECT_EQ(Quoted(std::string(100, 'a')), "\"" + std::string(60, 'a') + "...\"");
+  EXPECT_EQ(Quoted(std::string(100, 'a')), Text('"', std::string(60, 'a'), "...\""));
 }
 
 TEST(Lines, EndInAnyCustomAndTheLastNeedsNone) {
   const FileText text("a\r\n\nb \t\nc", "f");
   Lines lines(text);
   std::string all;
-  while (lines.Next()) all += "[" + std::string(lines.line()) + "]";
+  while (lines.Next()) all += Text("[", lines.line(), "]");
   EXPECT_EQ(all, "[a][][b][c]");
 }
 
@@ -59,7 +59,7 @@ TEST(Names, ThatAreNotUtf8AreReadAsLatin1) {
 
 TEST(NameIndex, FindsEachNameItWasGivenAndNoOther) {
   std::vector<std::string> names;
-  for (int i = 0; i < 5000; ++i) names.push_back("name" + std::to_string(i));
+  for (int i = 0; i < 5000; ++i) names.push_back(Text("name", i));
   NameIndex index;
   EXPECT_EQ(index.Find("name0"), -1);
   for (int i = 0; i < 5000; ++i) EXPECT_EQ(index.Add(names[static_cast<std::size_t>(i)]), i);
