@@ -25,7 +25,8 @@ using linear::Watch;
 class Solver {
  public:
   static sy_solver Describe();
-  explicit Solver(const sy_host& host) : log_(host), quiet_(host), settings_(OptionTable(), "CBC") {}
+  explicit Solver(const sy_host& host)
+      : log_(host), quiet_(host), settings_(OptionTable(), "CBC") {}
 
   void SetOption(std::string_view name, const sy_value& value) { settings_.Set(name, value); }
   void Load(const sy_problem& problem, std::uint64_t updates);
@@ -100,15 +101,13 @@ void Solver::Solve(const sy_control& control, sy_result& result) {
 
 // The relaxation is the answer of a problem without integers; else it is where the search begins:
 // true where that is wanted.
-bool Solver::SolveRelaxation(OsiClpSolverInterface& solver, Watch& watch,
-                             sy_result& result) const {
+bool Solver::SolveRelaxation(OsiClpSolverInterface& solver, Watch& watch, sy_result& result) const {
   solver.initialSolve();
   ClpSimplex& clp = *solver.getModelPtr();
   if (!watch.Stopped() && !coin::ProvesItsVerdict(clp)) coin::SeekProof(clp, watch);
   const bool integers = AnyInteger();
   result.iterations = solver.getIterationCount();
-  linear::Say(result, "linear relaxation: CLP status " +
-                          std::to_string(clp.problemStatus()));
+  linear::Say(result, "linear relaxation: CLP status " + std::to_string(clp.problemStatus()));
   if (watch.reason() != SY_NOT_SOLVED) {
     result.termination = watch.reason();
   } else if (solver.isProvenPrimalInfeasible()) {
@@ -118,7 +117,8 @@ bool Solver::SolveRelaxation(OsiClpSolverInterface& solver, Watch& watch,
   } else if (!solver.isProvenOptimal()) {
     result.termination = SY_NUMERICAL_TROUBLE;
   } else {
-    const std::vector<double> x(solver.getColSolution(), solver.getColSolution() + problem_.num_vars);
+    const std::vector<double> x(solver.getColSolution(),
+                                solver.getColSolution() + problem_.num_vars);
     result.bound = result.relaxed = Objective(problem_, x.data());
     linear::Put(result.relaxed_x, x);
     if (integers) return true;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 
+#include "CbcBranchDynamic.hpp"
 #include "CbcCompareActual.hpp"
 #include "CbcEventHandler.hpp"
 #include "CbcHeuristic.hpp"
@@ -19,6 +20,7 @@
 #include "CglFlowCover.hpp"
 #include "CglGomory.hpp"
 #include "CglKnapsackCover.hpp"
+#include "CglMixedIntegerRounding.hpp"
 #include "CglMixedIntegerRounding2.hpp"
 #include "CglProbing.hpp"
 #include "CglTwomir.hpp"
@@ -124,6 +126,11 @@ void AddCuts(CbcModel& model, int root_rounds, int tree_rounds) {
   CglMixedIntegerRounding2 rounding(1, true, 1);
   rounding.setDoPreproc(1);
   model.addCutGenerator(&rounding, kAlmostAlways, "MixedIntegerRounding2");
+  // Rows aggregated along paths close fixed-charge networks, which single rows leave open.
+  constexpr int kRowsToAggregate = 6;
+  CglMixedIntegerRounding aggregated(kRowsToAggregate, true, 1);
+  aggregated.setDoPreproc(1);
+  model.addCutGenerator(&aggregated, kAlmostAlways, "MixedIntegerRounding");
   CglFlowCover flow;
   model.addCutGenerator(&flow, kAlmostAlways, "FlowCover");
   CglTwomir twomir;
@@ -171,7 +178,8 @@ void Configure(CbcModel& model, const linear::Settings& settings, double cutoff,
   constexpr int kDefaultSeed = 1234567;  // CBC's
   // Beyond its first level CBC prints on standard output.
   model.setLogLevel(std::clamp(control.verbosity, 0, 1));
-  model.setRandomSeed(control.seed == 0 ? kDefaultSeed : static_cast<int>(control.seed % 0x7fffffff));
+  model.setRandomSeed(control.seed == 0 ? kDefaultSeed
+                                        : static_cast<int>(control.seed % 0x7fffffff));
   model.setUseElapsedTime(true);
   if (cutoff < kInfinity) model.setCutoff(cutoff);
   model.setCutoffIncrement(Increment(control));
@@ -187,9 +195,14 @@ void Configure(CbcModel& model, const linear::Settings& settings, double cutoff,
   if (settings.Text("heuristicsOnOff") == "on") {
     AddHeuristics(model, settings.Integer("passFeasibilityPump"));
   }
-  // Above -1 and its like CBC hands small subtrees to CLP, which prints on standard output there.
-  constexpr int kSearchAllItself = -1;
-  model.setFastNodeDepth(kSearchAllItself);
+  // Small problems are searched to the end from depth 10 on, without cuts and heuristics; CLP
+  // prints on standard output there unless the hint stands.
+  constexpr int kSmall = 1000;
+  constexpr int kCompleteFromTen = -12;
+  model.solver()->setHintParam(OsiDoReducePrint, true, OsiHintTry);
+  if (model.getNumRows() + model.getNumCols() < kSmall) model.setFastNodeDepth(kCompleteFromTen);
+  CbcBranchDynamicDecision branching;
+  model.setBranchingMethod(&branching);
   CbcCompareDefault compare;
   model.setNodeComparison(compare);
 }
@@ -205,14 +218,33 @@ sy_termination Reason(const CbcModel& model, const Watch& watch) {
 }
 
 const char* Words(const CbcModel& model) {
-  constexpr const char* kWords[] = {
-      "search completed with solution", "linear relaxation not feasible (or worse than cutoff)",
-      "stopped on gap",                 "stopped on nodes",
-      "stopped on time",                "stopped on user event",
-      "stopped on solutions",           "linear relaxation unbounded",
-      "stopped on iteration limit"};
+  constexpr const char* kWords[] = {"search completed with solution",
+                                    "linear relaxation not feasible (or worse than cutoff)",
+                                    "stopped on gap",
+                                    "stopped on nodes",
+                                    "stopped on time",
+                                    "stopped on user event",
+                                    "stopped on solutions",
+                                    "linear relaxation unbounded",
+                                    "stopped on iteration limit"};
   const int status = model.secondaryStatus();
   return status >= 0 && status < 9 ? kWords[status] : "status unknown";
+}
+
+// The problem as preprocessing leaves it, owned by `process`; null where it found no point to be
+// left.
+OsiSolverInterface* Reduced(CglPreProcess& process, OsiClpSolverInterface& solver) {
+  constexpr int kNoEqualities = 0;
+  constexpr int kPasses = 10;
+  CglProbing probing;
+  probing.setUsingObjective(1);
+  probing.setMaxPass(3);
+  probing.setMaxProbeRoot(solver.getNumCols());
+  probing.setMaxElements(100);
+  probing.setMaxLookRoot(50);
+  probing.setRowCuts(3);
+  process.addCutGenerator(&probing);
+  return process.preProcessNonDefault(solver, kNoEqualities, kPasses);
 }
 
 }  // namespace
@@ -228,24 +260,11 @@ Found Search(OsiClpSolverInterface& solver, const linear::Settings& settings, do
   const bool preprocesses = settings.Text("preprocess") == "on";
   CglPreProcess process;
   process.passInMessageHandler(&log);
-  OsiSolverInterface* reduced = &solver;
-  if (preprocesses) {
-    constexpr int kNoEqualities = 0;
-    constexpr int kPasses = 10;
-    CglProbing probing;
-    probing.setUsingObjective(1);
-    probing.setMaxPass(3);
-    probing.setMaxProbeRoot(solver.getNumCols());
-    probing.setMaxElements(100);
-    probing.setMaxLookRoot(50);
-    probing.setRowCuts(3);
-    process.addCutGenerator(&probing);
-    reduced = process.preProcessNonDefault(solver, kNoEqualities, kPasses);
-    if (reduced == nullptr || watch.Stopped()) {
-      found.termination = watch.reason() != SY_NOT_SOLVED ? watch.reason() : SY_INFEASIBLE;
-      found.text = "stopped or found infeasible by preprocessing";
-      return found;
-    }
+  OsiSolverInterface* reduced = preprocesses ? Reduced(process, solver) : &solver;
+  if (reduced == nullptr || watch.Stopped()) {
+    found.termination = watch.reason() != SY_NOT_SOLVED ? watch.reason() : SY_INFEASIBLE;
+    found.text = "stopped or found infeasible by preprocessing";
+    return found;
   }
   CbcModel model(*reduced);
   model.passInMessageHandler(&log);
@@ -261,18 +280,16 @@ Found Search(OsiClpSolverInterface& solver, const linear::Settings& settings, do
   found.bound = seen.bound;
   found.iterations = model.getIterationCount();
   found.nodes = model.getNodeCount();
-  found.text = Words(model);
+  // A relaxation that was stopped may look to CBC like the end of a search.
+  found.text = watch.reason() != SY_NOT_SOLVED ? "stopped on user event" : Words(model);
   if (watch.reason() == SY_NOT_SOLVED) {
-    found.bound = std::max(seen.bound, model.getBestPossibleObjValue() - Increment(watch.control()));
+    found.bound =
+        std::max(seen.bound, model.getBestPossibleObjValue() - Increment(watch.control()));
   }
   if (model.bestSolution() == nullptr) return found;
   session.deaf = true;  // what follows is short, and leads to the point
-  const OsiSolverInterface* full = model.solver();
-  if (preprocesses) {
-    process.postProcess(*model.solver());
-    full = &solver;
-  }
-  const double* x = preprocesses ? full->getColSolution() : model.bestSolution();
+  if (preprocesses) process.postProcess(*model.solver());
+  const double* x = preprocesses ? solver.getColSolution() : model.bestSolution();
   found.x.emplace(x, x + solver.getNumCols());
   return found;
 }

@@ -79,7 +79,8 @@ void Solver::Configure(const sy_control& control) {
     return settings_.Has(name) || std::isnan(asked) ? settings_.Real(name) : asked;
   };
   log_.SetVerbosity(control.verbosity);
-  model_.setRandomSeed(control.seed == 0 ? kDefaultSeed : static_cast<int>(control.seed % 0x7fffffff));
+  model_.setRandomSeed(control.seed == 0 ? kDefaultSeed
+                                         : static_cast<int>(control.seed % 0x7fffffff));
   model_.setPrimalTolerance(tolerance("primalTolerance", control.feasibility));
   model_.setDualTolerance(tolerance("dualTolerance", control.optimality));
   model_.setDualBound(settings_.Real("dualBound"));
@@ -101,10 +102,12 @@ Solver::Way Solver::Begin(bool proceed) {
                                              ClpSimplex::atLowerBound, ClpSimplex::atUpperBound,
                                              ClpSimplex::isFree};
   for (int j = 0; j < model_.numberColumns(); ++j) {
-    model_.setColumnStatus(j, kMeaning[std::min<int>(start_.x_basis[static_cast<std::size_t>(j)], 4)]);
+    model_.setColumnStatus(j,
+                           kMeaning[std::min<int>(start_.x_basis[static_cast<std::size_t>(j)], 4)]);
   }
   for (int i = 0; i < model_.numberRows(); ++i) {
-    model_.setRowStatus(i, kMeaning[std::min<int>(start_.row_basis[static_cast<std::size_t>(i)], 4)]);
+    model_.setRowStatus(i,
+                        kMeaning[std::min<int>(start_.row_basis[static_cast<std::size_t>(i)], 4)]);
   }
   return Way::kDual;
 }
@@ -155,7 +158,8 @@ void Solver::Run(Way way, ClpSession& session) {
     model_.initialSolve(how);
   }
   // Optimal as scaled, a little infeasible as given.
-  if (model_.problemStatus() == 0 && model_.secondaryStatus() >= 2 && model_.secondaryStatus() <= 4) {
+  if (model_.problemStatus() == 0 && model_.secondaryStatus() >= 2 &&
+      model_.secondaryStatus() <= 4) {
     model_.scaling(0);
     model_.primal(1);
   }
@@ -177,21 +181,27 @@ double Solver::Bound() {
   const ModelView view(model_);
   const sy_problem& p = view.problem;
   const double* y = model_.dualRowSolution();
-  return linear::DualObjective(p, model_.primalColumnSolution(),
-                               linear::Complete(p, model_.primalColumnSolution(),
-                                                {y, y + model_.numberRows()}),
-                               linear::kRayNoise);
+  return linear::DualObjective(
+      p, model_.primalColumnSolution(),
+      linear::Complete(p, model_.primalColumnSolution(), {y, y + model_.numberRows()}),
+      linear::kRayNoise);
 }
 
 sy_termination Solver::Reason(const Watch& watch) const {
   if (met_cutoff_) return SY_CUTOFF;
   switch (model_.problemStatus()) {
-    case 0: return SY_OPTIMAL;
-    case 1: return SY_INFEASIBLE;
-    case 2: return SY_UNBOUNDED;
-    case 3: return SY_ITERATION_LIMIT;
-    case 5: return watch.reason();
-    default: return SY_NUMERICAL_TROUBLE;
+    case 0:
+      return SY_OPTIMAL;
+    case 1:
+      return SY_INFEASIBLE;
+    case 2:
+      return SY_UNBOUNDED;
+    case 3:
+      return SY_ITERATION_LIMIT;
+    case 5:
+      return watch.reason();
+    default:
+      return SY_NUMERICAL_TROUBLE;
   }
 }
 
@@ -226,8 +236,8 @@ void Solver::Report(const Watch& watch, sy_result& result) {
   result.objective = Objective(p, x.data());
   linear::Put(result.x, x);
   linear::Put(result, duals, optimal || model_.dualFeasible() ? SY_FEASIBLE : SY_INFEASIBLE_POINT);
-  result.bound = optimal ? result.objective
-                         : linear::DualObjective(p, x.data(), duals, linear::kRayNoise);
+  result.bound =
+      optimal ? result.objective : linear::DualObjective(p, x.data(), duals, linear::kRayNoise);
 }
 
 void Solver::ReportBasis(sy_result& result) const {
@@ -248,8 +258,8 @@ sy_solver Solver::Describe() {
   t.version = CLP_VERSION;
   t.license = "EPL-2.0";
   t.accepts = SY_ACCEPTS_BOUNDS | SY_ACCEPTS_ROWS;
-  t.traits = SY_PROVES_GLOBAL | SY_GIVES_DUALS | SY_GIVES_CERTIFICATES | SY_GIVES_BASIS |
-             SY_GIVES_BOUND;
+  t.traits =
+      SY_PROVES_GLOBAL | SY_GIVES_DUALS | SY_GIVES_CERTIFICATES | SY_GIVES_BASIS | SY_GIVES_BOUND;
   t.honors = SY_HONORS_THREADS | SY_HONORS_SECONDS | SY_HONORS_ITERATIONS | SY_HONORS_CUTOFF |
              SY_HONORS_FEASIBILITY | SY_HONORS_OPTIMALITY | SY_HONORS_SEED | SY_HONORS_VERBOSITY |
              SY_HONORS_CANCELLED;

@@ -56,9 +56,10 @@ void Solver::TakeWhole(const sy_problem& problem, std::uint32_t kinds) {
 
 void Solver::TakeValues(const sy_csc& a) {
   constexpr bool kDeleteTheOld = true;
-  model_.replaceMatrix(new ClpPackedMatrix(new CoinPackedMatrix(true, a.rows, a.cols, a.start[a.cols],
-                                                                a.value, a.row, a.start, nullptr)),
-                       kDeleteTheOld);
+  model_.replaceMatrix(
+      new ClpPackedMatrix(new CoinPackedMatrix(true, a.rows, a.cols, a.start[a.cols], a.value,
+                                               a.row, a.start, nullptr)),
+      kDeleteTheOld);
   // Every copy and every scale of the old values goes.
   model_.setWhatsChanged(0);
 }

@@ -64,7 +64,8 @@ inline std::optional<linear::Duals> Farkas(ClpSimplex& model) {
 inline std::optional<std::vector<double>> Ray(ClpSimplex& model) {
   const std::unique_ptr<double[]> ray(model.unboundedRay());
   if (ray == nullptr) return std::nullopt;
-  return linear::FallingRay(ModelView(model).problem, {ray.get(), ray.get() + model.numberColumns()});
+  return linear::FallingRay(ModelView(model).problem,
+                            {ray.get(), ray.get() + model.numberColumns()});
 }
 
 /// Is there a ray to its word infeasible or unbounded? Any other word needs none.

@@ -23,44 +23,6 @@ void Must(HighsStatus status, const char* what) {
   }
 }
 
-HighsHessian LowerTriangle(const sy_csc* p, std::int32_t num_vars) {
-  HighsHessian hessian;
-  if (p == nullptr || p->start[p->cols] == 0) return hessian;
-  Csc lower = Transpose(*p);
-  hessian.dim_ = num_vars;
-  hessian.format_ = HessianFormat::kTriangular;
-  hessian.start_ = std::move(lower.start);
-  hessian.index_ = std::move(lower.row);
-  hessian.value_ = std::move(lower.value);
-  return hessian;
-}
-
-ModelView::ModelView(const HighsModel& model) : A{}, p{}, problem{} {
-  const HighsLp& lp = model.lp_;
-  const HighsSparseMatrix* a = &lp.a_matrix_;
-  if (!a->isColwise()) {
-    by_columns_ = *a;
-    by_columns_.ensureColwise();
-    a = &by_columns_;
-  }
-  A = {lp.num_row_, lp.num_col_, a->start_.data(), a->index_.data(), a->value_.data()};
-  problem.size = sizeof problem;
-  problem.num_vars = lp.num_col_;
-  problem.num_rows = lp.num_row_;
-  problem.q = lp.col_cost_.data();
-  problem.offset = lp.offset_;
-  problem.x_lower = lp.col_lower_.data();
-  problem.x_upper = lp.col_upper_.data();
-  problem.row_lower = lp.row_lower_.data();
-  problem.row_upper = lp.row_upper_.data();
-  if (lp.num_row_ > 0) problem.A = &A;
-  const HighsHessian& h = model.hessian_;
-  if (h.dim_ == 0) return;
-  P = Transpose({h.dim_, h.dim_, h.start_.data(), h.index_.data(), h.value_.data()});
-  p = P.View();
-  problem.P = &p;
-}
-
 void Attach(Highs& solver, Watch& watch, const sy_host& host) {
   const auto hear = [&](int kind, const std::string& text, const HighsCallbackOutput* out,
                         HighsCallbackInput* in, void*) {
@@ -81,8 +43,8 @@ void Attach(Highs& solver, Watch& watch, const sy_host& host) {
     }
   };
   solver.setCallback(hear);
-  for (const auto kind : {kCallbackLogging, kCallbackSimplexInterrupt, kCallbackIpmInterrupt, kCallbackMipInterrupt,
-                          kCallbackMipImprovingSolution}) {
+  for (const auto kind : {kCallbackLogging, kCallbackSimplexInterrupt, kCallbackIpmInterrupt,
+                          kCallbackMipInterrupt, kCallbackMipImprovingSolution}) {
     solver.startCallback(kind);
   }
 }
@@ -110,17 +72,21 @@ void Solver::WarmStart(const sy_start& start) {
 void Solver::Solve(const sy_control& control, sy_result& result) {
   Watch watch(control);
   Clear(result);
-  worker_.Run([&] {
-    HighsOptions options = options_.For(control);
-    if (options.threads != threads_) Highs::resetGlobalScheduler(true);
-    threads_ = options.threads;
-    options.time_limit = std::min(options.time_limit, highs_->getRunTime() + watch.Left());
-    Must(highs_->passOptions(options), "its options");
-    Begin((control.flags & SY_CONTINUE) != 0);
-    Attach(*highs_, watch, host_);
-    Run(watch, result);
-    highs_->setCallback(HighsCallbackFunctionType());
-  }, [&] { if (watch.Stopped()) EndTime(); });
+  worker_.Run(
+      [&] {
+        HighsOptions options = options_.For(control);
+        if (options.threads != threads_) Highs::resetGlobalScheduler(true);
+        threads_ = options.threads;
+        options.time_limit = std::min(options.time_limit, highs_->getRunTime() + watch.Left());
+        Must(highs_->passOptions(options), "its options");
+        Begin((control.flags & SY_CONTINUE) != 0);
+        Attach(*highs_, watch, host_);
+        Run(watch, result);
+        highs_->setCallback(HighsCallbackFunctionType());
+      },
+      [&] {
+        if (watch.Stopped()) EndTime();
+      });
   result.seconds = watch.Seconds();
 }
 
@@ -170,30 +136,41 @@ void Solver::Run(Watch& watch, sy_result& result) {
   const bool failed = highs_->run() == HighsStatus::kError;
   if (failed && highs_->getHessianNumNz() > 0 &&
       highs_->getModelStatus() == HighsModelStatus::kSolveError) {
-    throw Failure(SY_E_UNSUPPORTED, "HiGHS could not solve this quadratic objective: it takes "
-                                    "convex ones alone");
+    throw Failure(SY_E_UNSUPPORTED,
+                  "HiGHS could not solve this quadratic objective: it takes "
+                  "convex ones alone");
   }
   Report(watch, result);
 }
 
 sy_termination Solver::Reason(const Watch& watch) const {
   switch (highs_->getModelStatus()) {
-    case HighsModelStatus::kOptimal: return SY_OPTIMAL;
+    case HighsModelStatus::kOptimal:
+      return SY_OPTIMAL;
     case HighsModelStatus::kInfeasible:
       // Branch and bound prunes by the cutoff too, and then says that nothing is left.
       return has_integers() && watch.control().cutoff < kInfinity ? SY_CUTOFF : SY_INFEASIBLE;
-    case HighsModelStatus::kUnbounded: return SY_UNBOUNDED;
-    case HighsModelStatus::kUnboundedOrInfeasible: return SY_INFEASIBLE_OR_UNBOUNDED;
-    case HighsModelStatus::kObjectiveBound: return SY_CUTOFF;
-    case HighsModelStatus::kObjectiveTarget: return SY_TARGET;
+    case HighsModelStatus::kUnbounded:
+      return SY_UNBOUNDED;
+    case HighsModelStatus::kUnboundedOrInfeasible:
+      return SY_INFEASIBLE_OR_UNBOUNDED;
+    case HighsModelStatus::kObjectiveBound:
+      return SY_CUTOFF;
+    case HighsModelStatus::kObjectiveTarget:
+      return SY_TARGET;
     case HighsModelStatus::kTimeLimit:
       return watch.reason() != SY_NOT_SOLVED ? watch.reason() : SY_TIME_LIMIT;
-    case HighsModelStatus::kIterationLimit: return SY_ITERATION_LIMIT;
-    case HighsModelStatus::kSolutionLimit: return SY_NODE_LIMIT;
-    case HighsModelStatus::kMemoryLimit: return SY_MEMORY_LIMIT;
+    case HighsModelStatus::kIterationLimit:
+      return SY_ITERATION_LIMIT;
+    case HighsModelStatus::kSolutionLimit:
+      return SY_NODE_LIMIT;
+    case HighsModelStatus::kMemoryLimit:
+      return SY_MEMORY_LIMIT;
     case HighsModelStatus::kInterrupt:
-    case HighsModelStatus::kHighsInterrupt: return watch.reason();
-    default: return SY_NUMERICAL_TROUBLE;
+    case HighsModelStatus::kHighsInterrupt:
+      return watch.reason();
+    default:
+      return SY_NUMERICAL_TROUBLE;
   }
 }
 
@@ -203,9 +180,9 @@ void Solver::Report(Watch& watch, sy_result& result) {
   const HighsModelStatus status = highs_->getModelStatus();
   result.termination = Reason(watch);
   Say(result, highs_->modelStatusToString(status));
-  for (const auto count : {info.simplex_iteration_count, info.ipm_iteration_count,
-                           info.crossover_iteration_count, info.pdlp_iteration_count,
-                           info.qp_iteration_count}) {
+  for (const auto count :
+       {info.simplex_iteration_count, info.ipm_iteration_count, info.crossover_iteration_count,
+        info.pdlp_iteration_count, info.qp_iteration_count}) {
     result.iterations += std::max<HighsInt>(count, 0);
   }
   result.nodes = std::max<std::int64_t>(info.mip_node_count, 0);
@@ -240,12 +217,13 @@ void Solver::ReportDuals(const ModelView& view, sy_result& result) {
 // Presolve proves without a ray; the solves that find one have what is left of the time.
 void Solver::ReportCertificate(const ModelView& view, Watch& watch, sy_result& result) {
   if (has_integers()) return;
-  if (result.termination == SY_INFEASIBLE && (result.x_dual != nullptr || result.row_dual != nullptr)) {
+  if (result.termination == SY_INFEASIBLE &&
+      (result.x_dual != nullptr || result.row_dual != nullptr)) {
     std::vector<double> ray(static_cast<std::size_t>(view.problem.num_rows));
     std::optional<Duals> duals;
     bool has_ray = false;
-    if (view.problem.P == nullptr && highs_->getDualRay(has_ray, ray.data()) != HighsStatus::kError &&
-        has_ray) {
+    if (view.problem.P == nullptr &&
+        highs_->getDualRay(has_ray, ray.data()) != HighsStatus::kError && has_ray) {
       duals = linear::Farkas(view.problem, ray);
     }
     if (!duals) duals = FindFarkas(highs_->getModel(), highs_->getOptions(), host_, watch);
@@ -278,11 +256,11 @@ sy_solver Solver::Describe() {
   t.name = "highs";
   t.version = highsVersion();
   t.license = "MIT";
-  t.accepts = SY_ACCEPTS_BOUNDS | SY_ACCEPTS_ROWS | SY_ACCEPTS_QUADRATIC_OBJECTIVE |
-              SY_ACCEPTS_INTEGER;
+  t.accepts =
+      SY_ACCEPTS_BOUNDS | SY_ACCEPTS_ROWS | SY_ACCEPTS_QUADRATIC_OBJECTIVE | SY_ACCEPTS_INTEGER;
   t.integer_accepts = SY_ACCEPTS_BOUNDS | SY_ACCEPTS_ROWS | SY_ACCEPTS_INTEGER;
-  t.traits = SY_PROVES_GLOBAL | SY_GIVES_DUALS | SY_GIVES_CERTIFICATES | SY_GIVES_BASIS |
-             SY_GIVES_BOUND;
+  t.traits =
+      SY_PROVES_GLOBAL | SY_GIVES_DUALS | SY_GIVES_CERTIFICATES | SY_GIVES_BASIS | SY_GIVES_BOUND;
   t.honors = SY_HONORS_THREADS | SY_HONORS_SECONDS | SY_HONORS_ITERATIONS | SY_HONORS_NODES |
              SY_HONORS_CUTOFF | SY_HONORS_TARGET | SY_HONORS_FEASIBILITY | SY_HONORS_OPTIMALITY |
              SY_HONORS_INTEGRALITY | SY_HONORS_ABSOLUTE_GAP | SY_HONORS_RELATIVE_GAP |

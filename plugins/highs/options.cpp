@@ -122,7 +122,8 @@ HighsOptions Options::For(const sy_control& control) const {
   o.output_flag = control.verbosity > 0;
   Prefer(o.threads, "threads", std::max(1, control.threads));
   Prefer(o.random_seed, "random_seed", control.seed & 0x7fffffffu);
-  Prefer(o.simplex_iteration_limit, "simplex_iteration_limit", Clamped<HighsInt>(control.iterations));
+  Prefer(o.simplex_iteration_limit, "simplex_iteration_limit",
+         Clamped<HighsInt>(control.iterations));
   Prefer(o.ipm_iteration_limit, "ipm_iteration_limit", Clamped<HighsInt>(control.iterations));
   Prefer(o.pdlp_iteration_limit, "pdlp_iteration_limit", Clamped<HighsInt>(control.iterations));
   Prefer(o.qp_iteration_limit, "qp_iteration_limit", Clamped<HighsInt>(control.iterations));

@@ -63,6 +63,44 @@ HighsModel Model(const sy_problem& problem) {
 
 }  // namespace
 
+HighsHessian LowerTriangle(const sy_csc* p, std::int32_t num_vars) {
+  HighsHessian hessian;
+  if (p == nullptr || p->start[p->cols] == 0) return hessian;
+  Csc lower = Transpose(*p);
+  hessian.dim_ = num_vars;
+  hessian.format_ = HessianFormat::kTriangular;
+  hessian.start_ = std::move(lower.start);
+  hessian.index_ = std::move(lower.row);
+  hessian.value_ = std::move(lower.value);
+  return hessian;
+}
+
+ModelView::ModelView(const HighsModel& model) : A{}, p{}, problem{} {
+  const HighsLp& lp = model.lp_;
+  const HighsSparseMatrix* a = &lp.a_matrix_;
+  if (!a->isColwise()) {
+    by_columns_ = *a;
+    by_columns_.ensureColwise();
+    a = &by_columns_;
+  }
+  A = {lp.num_row_, lp.num_col_, a->start_.data(), a->index_.data(), a->value_.data()};
+  problem.size = sizeof problem;
+  problem.num_vars = lp.num_col_;
+  problem.num_rows = lp.num_row_;
+  problem.q = lp.col_cost_.data();
+  problem.offset = lp.offset_;
+  problem.x_lower = lp.col_lower_.data();
+  problem.x_upper = lp.col_upper_.data();
+  problem.row_lower = lp.row_lower_.data();
+  problem.row_upper = lp.row_upper_.data();
+  if (lp.num_row_ > 0) problem.A = &A;
+  const HighsHessian& h = model.hessian_;
+  if (h.dim_ == 0) return;
+  P = Transpose({h.dim_, h.dim_, h.start_.data(), h.index_.data(), h.value_.data()});
+  p = P.View();
+  problem.P = &p;
+}
+
 void Solver::Load(const sy_problem& problem, std::uint64_t) {
   RefuseMixedQuadratic(problem.P != nullptr, AnyInteger(problem.integer, problem.num_vars));
   start_ = {};
@@ -113,7 +151,8 @@ void Solver::TakeWhole(const sy_problem& problem, std::uint32_t kinds) {
 // pattern is another, the matrix goes in anew.
 void Solver::TakeValues(const sy_problem& problem) {
   if (highs_->getHessianNumNz() > 0 || problem.P != nullptr) {
-    Must(highs_->passHessian(LowerTriangle(problem.P, problem.num_vars)), "the quadratic objective");
+    Must(highs_->passHessian(LowerTriangle(problem.P, problem.num_vars)),
+         "the quadratic objective");
   }
   if (problem.A == nullptr) return;
   const sy_csc& a = *problem.A;
@@ -125,8 +164,9 @@ void Solver::TakeValues(const sy_problem& problem) {
                        std::equal(a.start, a.start + a.cols + 1, lp.a_matrix_.start_.begin());
   const std::vector<double> before = own;
   std::size_t changed = count;
-  if (aligned) changed -= std::inner_product(own.begin(), own.end(), a.value, std::size_t{0},
-                                             std::plus<>(), std::equal_to<>());
+  if (aligned)
+    changed -= std::inner_product(own.begin(), own.end(), a.value, std::size_t{0}, std::plus<>(),
+                                  std::equal_to<>());
   if (!aligned || changed > count / 8) {
     const HighsBasis basis = highs_->getBasis();
     HighsModel model = highs_->getModel();
@@ -155,8 +195,8 @@ void Solver::Append(const sy_more& more) {
     const std::vector<HighsInt> no_entries(static_cast<std::size_t>(more.num_vars) + 1, 0);
     Must(highs_->addCols(more.num_vars, Given(more.q, more.num_vars, 0).data(),
                          Given(more.x_lower, more.num_vars, -kInfinity).data(),
-                         Given(more.x_upper, more.num_vars, kInfinity).data(), 0,
-                         no_entries.data(), nullptr, nullptr),
+                         Given(more.x_upper, more.num_vars, kInfinity).data(), 0, no_entries.data(),
+                         nullptr, nullptr),
          "new variables");
     for (std::int32_t j = 0; AnyInteger(more.integer, more.num_vars) && j < more.num_vars; ++j) {
       if (more.integer[j] == 0) continue;

@@ -48,8 +48,8 @@ inline Duals Complete(const sy_problem& p, const double* x, std::vector<double> 
   return {std::move(rest), std::move(row_dual)};
 }
 
-/// The dual objective, a bound where the problem is convex. Duals of a solver carry rounding errors:
-/// one below `noise` against an infinite side counts as 0, a larger one leaves no bound.
+/// The dual objective, a bound where the problem is convex. Duals of a solver carry rounding
+/// errors: one below `noise` against an infinite side counts as 0, a larger one leaves no bound.
 inline double DualObjective(const sy_problem& p, const double* x, Duals duals, double noise) {
   const auto quiet = [&](std::vector<double>& d, const double* lower, const double* upper) {
     for (std::size_t k = 0; k < d.size(); ++k) {
@@ -96,8 +96,8 @@ inline bool Recedes(const std::vector<double>& d, const double* lower, const dou
   return true;
 }
 
-/// The direction along `ray` or against it, of largest entry 1, in which the objective falls and the
-/// problem recedes; nothing where neither does.
+/// The direction along `ray` or against it, of largest entry 1, in which the objective falls and
+/// the problem recedes; nothing where neither does.
 inline std::optional<std::vector<double>> FallingRay(const sy_problem& p, std::vector<double> ray) {
   double size = 0;
   double slope = 0;

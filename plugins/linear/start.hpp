@@ -11,8 +11,8 @@
 namespace switchyard::linear {
 
 struct Start {
-  std::vector<double> x;  // empty, or NaN where unknown
-  std::vector<std::uint8_t> x_basis;    // both empty, or both complete
+  std::vector<double> x;              // empty, or NaN where unknown
+  std::vector<std::uint8_t> x_basis;  // both empty, or both complete
   std::vector<std::uint8_t> row_basis;
 
   Start() = default;

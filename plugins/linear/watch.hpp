@@ -59,8 +59,9 @@ class Watch {
     if (incumbent == nullptr && now < next_) return;
     next_ = now + kPeriod;
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    const sy_progress progress = {sizeof(sy_progress), 0,     iteration, now,        objective, bound,
-                                  nan,                 nan,   incumbent, nodes, open_nodes};
+    const sy_progress progress = {sizeof(sy_progress), 0,     iteration, now,
+                                  objective,           bound, nan,       nan,
+                                  incumbent,           nodes, open_nodes};
     if (control_.progress(control_.context, &progress) != 0) Stop(SY_CANCELLED);
   }
 

@@ -121,8 +121,8 @@ TEST_P(LinearSolver, TakesNullForWhatIsAbsent) {
 
 TEST_P(QuadraticSolver, CertifiesTheOptimumItReports) {
   // min 1/2 |x|^2 + x0 x1 / 2 - x0 over x0 + x1 >= 2, x1 <= 0.5
-  ProblemData data = Linear({-1, 0}, {-kInfinity, -kInfinity}, {kInfinity, 0.5}, {{1, 1}}, {2},
-                            {kInfinity}, 1);
+  ProblemData data =
+      Linear({-1, 0}, {-kInfinity, -kInfinity}, {kInfinity, 0.5}, {{1, 1}}, {2}, {kInfinity}, 1);
   data.P = Dense({{1, 0.5}, {0, 1}}, 2);
   data.flags = SY_PROBLEM_CONVEX;
   const Problem problem(data);
@@ -136,8 +136,8 @@ TEST_P(QuadraticSolver, ProvesInfeasibleAndUnbounded) {
       Linear({1, 1}, {0, 0}, {10, 10}, {{1, 1}, {1, 1}}, {5, -kInfinity}, {kInfinity, 3});
   infeasible.P = Dense({{2, 1}, {0, 2}}, 2);
   infeasible.flags = SY_PROBLEM_CONVEX;
-  ProblemData unbounded = Linear({0, -1}, {-kInfinity, 0}, {kInfinity, kInfinity}, {{1, 0}},
-                                 {-kInfinity}, {5});
+  ProblemData unbounded =
+      Linear({0, -1}, {-kInfinity, 0}, {kInfinity, kInfinity}, {{1, 0}}, {-kInfinity}, {5});
   unbounded.P = Dense({{2, 0}, {0, 0}}, 2);
   unbounded.flags = SY_PROBLEM_CONVEX;
   const Problem first(infeasible);

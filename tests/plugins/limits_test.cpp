@@ -27,7 +27,8 @@ TEST_P(LimitedSolver, StopsWhenItsTimeIsUp) {
   sy_control control = Freely();
   control.seconds = 0.3;
   const Answer a = solver.Solve(control);
-  EXPECT_TRUE(a.result.termination == SY_TIME_LIMIT || a.result.termination == SY_OPTIMAL) << a.text;
+  EXPECT_TRUE(a.result.termination == SY_TIME_LIMIT || a.result.termination == SY_OPTIMAL)
+      << a.text;
   EXPECT_LE(a.result.seconds, 0.3 + kSlack);
 }
 

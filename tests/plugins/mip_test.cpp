@@ -63,8 +63,10 @@ TEST_P(IntegerSolver, FindsWhatEnumerationFinds) {
 }
 
 TEST_P(IntegerSolver, MixesGeneralIntegersAndContinuous) {
-  // min -3x - 2y - z, 2x + y + z <= 7.5, x <= 2.6 integer, y <= 1.5, z integer: x = 2, y = 1.5, z = 2
-  ProblemData data = Linear({-3, -2, -1}, {0, 0, 0}, {2.6, 1.5, 9}, {{2, 1, 1}}, {-kInfinity}, {7.5});
+  // min -3x - 2y - z, 2x + y + z <= 7.5, x <= 2.6 integer, y <= 1.5, z integer: x = 2, y = 1.5, z =
+  // 2
+  ProblemData data =
+      Linear({-3, -2, -1}, {0, 0, 0}, {2.6, 1.5, 9}, {{2, 1, 1}}, {-kInfinity}, {7.5});
   data.integer = {1, 0, 1};
   const Problem problem(data);
   BareSolver solver(GetParam());

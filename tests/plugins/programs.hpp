@@ -49,7 +49,8 @@ inline ProblemData Corner() {
 
 /// A random program, feasible and bounded by construction: costs from row duals and reduced costs
 /// that fit a random point.
-inline ProblemData Random(std::int32_t vars, std::int32_t rows, unsigned seed, double density = 0.3) {
+inline ProblemData Random(std::int32_t vars, std::int32_t rows, unsigned seed,
+                          double density = 0.3) {
   std::mt19937 draw(seed);
   std::uniform_real_distribution<double> unit(0, 1);
   ProblemData d;
@@ -144,8 +145,8 @@ inline void ExpectOptimal(const ProblemData& d, const BareSolver& solver, const 
   if (!solver.Has(SY_GIVES_DUALS) || d.has_integers()) return;
   ASSERT_EQ(a.result.dual, SY_FEASIBLE);
   EXPECT_LE(Stationarity(d, a, false), tolerance * scale);
-  const double dual = d.offset - 0.5 * QuadraticForm(d.P.View(), a.x.data()) +
-                      Sides(d, a, tolerance * scale);
+  const double dual =
+      d.offset - 0.5 * QuadraticForm(d.P.View(), a.x.data()) + Sides(d, a, tolerance * scale);
   EXPECT_NEAR(dual, a.result.objective, 10 * tolerance * scale);
 }
 
