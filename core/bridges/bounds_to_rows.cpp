@@ -1,5 +1,6 @@
 // l <= x_j <= u becomes a row with one entry 1, behind the rows there are: for every variable with
-// a finite side, in order. Its row's dual is the bound's dual.
+// a finite side, in order. Its row's dual is the bound's dual, beside what a solver that stopped
+// early left of stationarity in x_dual.
 #include <cmath>
 
 #include "core/bridges/bridges.hpp"
@@ -14,9 +15,9 @@ class BoundsToRowsBridge final : public Bridge {
 
   void Back(Vectors& v) const override {
     if (v.row_dual.empty()) return;
-    v.x_dual.assign(static_cast<std::size_t>(image().data().num_vars), 0.0);
+    v.x_dual.resize(static_cast<std::size_t>(image().data().num_vars), 0.0);
     for (std::size_t k = 0; k < bounded_.size(); ++k) {
-      v.x_dual[static_cast<std::size_t>(bounded_[k])] = v.row_dual[rows_ + k];
+      v.x_dual[static_cast<std::size_t>(bounded_[k])] += v.row_dual[rows_ + k];
     }
     v.row_dual.resize(rows_);
   }

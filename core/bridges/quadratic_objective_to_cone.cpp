@@ -29,9 +29,15 @@ class QuadraticObjectiveBridge final : public Bridge {
   void Forward(Vectors& v) const override {
     if (!v.x.empty()) v.x.push_back(0.5 * QuadraticForm(P_.View(), v.x.data()));
     if (!v.x_dual.empty()) v.x_dual.push_back(0);
-    if (!v.cone_dual.empty()) {
-      v.cone_dual.resize(static_cast<std::size_t>(image().data().num_cone_rows()), std::nan(""));
-    }
+    if (v.x_dual.empty() && v.row_dual.empty() && v.cone_dual.empty()) return;
+    const ProblemData& d = image().data();
+    v.cone_dual.resize(d.g.size(), std::nan(""));
+    if (v.x.empty()) return;
+    std::vector<double> s = d.g;
+    MultiplyAdd(d.F.View(), 1, v.x.data(), s.data());
+    v.cone_dual[cone_rows_] = s[cone_rows_ + 1];
+    v.cone_dual[cone_rows_ + 1] = s[cone_rows_];
+    for (std::size_t i = cone_rows_ + 2; i < s.size(); ++i) v.cone_dual[i] = -s[i];
   }
 
  private:

@@ -1,11 +1,12 @@
 #include "core/host/facade.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstring>
-#include <set>
 
 #include "core/host/problem_check.hpp"
+#include "core/host/turn.hpp"
 #include "core/host/watch.hpp"
 #include "core/problem/difference.hpp"
 #include "switchyard/error.hpp"
@@ -16,41 +17,13 @@ namespace {
 
 using plugin::Failure;
 
-/// Holds a backend that runs one at a time, for one call.
-class Turn {
- public:
-  explicit Turn(const FacadeContext& context) {
-    if ((context.backend->facts.traits & SY_ONE_AT_A_TIME) == 0) return;
-    if (!held().insert(&context).second) {
-      throw Failure(SY_E_STATE, context.backend->id +
-                                    " runs one at a time and is already running in this thread: "
-                                    "it cannot be used from inside its own solve");
-    }
-    context_ = &context;
-    lock_ = std::unique_lock(const_cast<FacadeContext&>(context).turn);
-  }
-  Turn(const Turn&) = delete;
-  Turn& operator=(const Turn&) = delete;
-  ~Turn() {
-    if (context_ != nullptr) held().erase(context_);
-  }
-
- private:
-  static std::set<const FacadeContext*>& held() {
-    thread_local std::set<const FacadeContext*> held;
-    return held;
-  }
-  const FacadeContext* context_ = nullptr;
-  std::unique_lock<std::mutex> lock_;
-};
-
 /// A BackendError as the failure of the facade's own call.
 template <class Body>
 auto Forwarding(Body&& body) {
   try {
     return body();
   } catch (const BackendError& e) {
-    throw Failure(e.code(), e.what());
+    throw Failure(e.code(), e.reason());
   } catch (const std::invalid_argument& e) {
     throw Failure(SY_E_ARGUMENT, e.what());
   }
@@ -65,9 +38,21 @@ std::uint64_t KindsOf(const sy_update& update) {
   return kinds;
 }
 
+bool IsSinglesAlone(const sy_update& update) {
+  return update.whole == 0 && update.num_gone_rows == 0 && update.num_gone_cones == 0 &&
+         update.more == nullptr;
+}
+
 bool IsVariableBoundsAlone(const sy_update& update) {
-  return update.whole == 0 && update.num_rows == 0 && update.num_cones == 0 &&
-         update.num_gone_rows == 0 && update.num_gone_cones == 0 && update.more == nullptr;
+  return IsSinglesAlone(update) && update.num_rows == 0 && update.num_cones == 0;
+}
+
+// What stood in the record before is no answer of a backend that writes nothing.
+void ForgetAnswer(sy_result& result) {
+  result.termination = SY_NOT_SOLVED;
+  result.primal = result.dual = SY_NO_POINT;
+  result.objective = result.relaxed = std::nan("");
+  result.bound = -kInfinity;
 }
 
 void CopyOut(const std::vector<double>& from, double* to, std::int32_t count) {
@@ -79,29 +64,38 @@ void CopyOut(const std::vector<double>& from, double* to, std::int32_t count) {
 }  // namespace
 
 BridgePlan PlanFor(const sy_problem& problem, const Backend& backend) {
-  Planned planned =
-      PlanBridges(FeaturesOf(problem), AbilitiesOf(backend.facts, problem.integer != nullptr));
-  if (!planned.found) {
-    const bool only_together = (planned.missing & ~AbilitiesOf(backend.facts, false)) == 0;
-    throw BackendError(SY_E_UNSUPPORTED,
-                       "does not take " + DescribeFeatures(planned.missing) +
-                           (only_together ? " together with integer variables" : ""));
+  const bool integer = problem.integer != nullptr;
+  const Features features = FeaturesOf(problem);
+  Planned planned = PlanBridges(features, AbilitiesOf(backend.facts, integer));
+  if (planned.found) return std::move(planned.plan);
+  const Features continuous = AbilitiesOf(backend.facts, false);
+  Features missing = planned.missing;
+  if (integer && backend.facts.integer_accepts == 0) {  // then the rest is not the obstacle
+    missing = SY_ACCEPTS_INTEGER | PlanBridges(features & ~SY_ACCEPTS_INTEGER, continuous).missing;
   }
-  return std::move(planned.plan);
+  const bool only_together = (missing & ~continuous) == 0;
+  throw BackendError(SY_E_UNSUPPORTED, backend.id,
+                     "does not take " + DescribeFeatures(missing) +
+                         (only_together ? " together with integer variables" : ""));
 }
 
 Facade::Facade(const sy_solver& self, const sy_host& host)
     : context_(static_cast<const FacadeContext*>(self.context)) {
   Forwarding([&] {
-    const Turn turn(*context_);
-    instance_ = std::make_unique<Instance>(facts(), host);
+    const Turn turn(context_->turn);
+    instance_ = std::make_unique<Instance>(facts(), host, context_->backend->table);
     context_->configure(*instance_);
   });
 }
 
+Facade::~Facade() {
+  const Turn turn(context_->turn, Turn::Use::kEnd);
+  instance_.reset();
+}
+
 void Facade::SetOption(std::string_view name, const sy_value& value) {
   Forwarding([&] {
-    const Turn turn(*context_);
+    const Turn turn(context_->turn);
     FindOption(facts(), std::string(name));
     instance_->SetOption(std::string(name), value);
   });
@@ -109,52 +103,75 @@ void Facade::SetOption(std::string_view name, const sy_value& value) {
 
 void Facade::Load(const sy_problem& problem, std::uint64_t updates) {
   Forwarding([&] {
-    const Turn turn(*context_);
+    const Turn turn(context_->turn);
     CheckProblem(problem);
     problem_ = std::make_shared<Problem>(problem);
     declared_ = updates;
     Reload();
+    in_step_ = true;
   });
+}
+
+template <class C>
+void Facade::InBackend(C&& call) {
+  struct Clock {
+    double& seconds;
+    std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+    ~Clock() {
+      seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    }
+  } const clock{backend_seconds_};
+  call();
 }
 
 void Facade::Reload() {
   plan_ = PlanFor(problem_->view(), *context_->backend);
   auto chain = std::make_unique<BridgeChain>(*problem_, plan_);
   const sy_problem& given = chain->empty() ? problem_->view() : chain->image().view();
-  instance_->Load(given, declared_ & facts().updates);
+  InBackend([&] { instance_->Load(given, declared_ & facts().updates); });
   chain_ = std::move(chain);
   sent_ = chain_->empty() ? problem_ : nullptr;
+  held_.reset();
+  passed_bounds_ = false;
   ++loads_;
 }
 
 void Facade::Send(const sy_update& update) {
-  instance_->Update(update);
+  InBackend([&] { instance_->Update(update); });
   ++updates_;
 }
 
+void Facade::NeedInStep() const {
+  if (in_step_) return;
+  throw Failure(SY_E_STATE, "an update failed, so what " + context_->backend->id +
+                                " holds is not known: load it again");
+}
+
+// A mistake is found before anything changes. What the backend was given stays as it is until it
+// gets the next.
 void Facade::Update(const sy_update& update) {
   Forwarding([&] {
-    const Turn turn(*context_);
-    // What the backend was given stays as it is until it gets the next.
-    auto next = sent_ == problem_ ? std::make_shared<Problem>(*problem_) : problem_;
+    const Turn turn(context_->turn);
+    NeedInStep();
+    const bool in_place = IsSinglesAlone(update) && sent_ != problem_;
+    auto next = in_place ? problem_ : std::make_shared<Problem>(*problem_);
+    CheckSingleBounds(update);
     next->Apply(update);
-    CheckProblem(next->view());
+    if (!IsSinglesAlone(update)) CheckProblem(next->view());
+    in_step_ = !in_place;
+    const BridgePlan plan = PlanFor(next->view(), *context_->backend);
+    in_step_ = false;
     problem_ = std::move(next);
-    if (PassStraight(update, KindsOf(update))) return;
-    SendDifference();
+    if (!PassStraight(update, plan)) SendDifference(plan);
+    in_step_ = true;
   });
 }
 
 // An update that needs no bridge to run again: none stands between, or only bounds of variables
 // changed and stay bounds.
-bool Facade::PassStraight(const sy_update& update, std::uint64_t kinds) {
-  if ((kinds & ~(facts().updates & declared_)) != 0) return false;
+bool Facade::PassStraight(const sy_update& update, const BridgePlan& plan) {
+  if ((KindsOf(update) & ~(facts().updates & declared_)) != 0 || plan != plan_) return false;
   if (chain_->empty()) {
-    if (PlanBridges(FeaturesOf(problem_->view()),
-                    AbilitiesOf(facts(), problem_->view().integer != nullptr))
-            .plan.size() != plan_.size()) {
-      return false;
-    }
     sy_update ours = update;
     if (update.problem != nullptr) ours.problem = &problem_->view();
     Send(ours);
@@ -166,21 +183,26 @@ bool Facade::PassStraight(const sy_update& update, std::uint64_t kinds) {
   });
   if (!bounds_stay || !IsVariableBoundsAlone(update)) return false;
   Send(update);
+  passed_bounds_ = true;
   return true;
 }
 
-void Facade::SendDifference() {
-  const BridgePlan plan = PlanFor(problem_->view(), *context_->backend);
+void Facade::SendDifference(const BridgePlan& plan) {
   auto fresh = std::make_unique<BridgeChain>(*problem_, plan);
   if (plan != plan_ || fresh->empty() || chain_->empty()) return Reload();
-  const std::uint64_t kinds = ProblemDifference(chain_->image().data(), fresh->image().data());
+  std::uint64_t kinds = ProblemDifference(chain_->image().data(), fresh->image().data());
+  if (passed_bounds_) kinds |= SY_UPDATES_BOUNDS;
   if ((kinds & ~(facts().updates & declared_)) != 0) return Reload();
-  if (kinds != 0) {
+  if (kinds == 0) {
+    if (held_ == nullptr) held_ = std::move(chain_);
+  } else {
     sy_update update{};
     update.size = sizeof update;
     update.whole = static_cast<std::uint32_t>(kinds);
     update.problem = &fresh->image().view();
     Send(update);
+    held_.reset();
+    passed_bounds_ = false;
   }
   chain_ = std::move(fresh);
 }
@@ -188,8 +210,9 @@ void Facade::SendDifference() {
 void Facade::WarmStart(const sy_start& start) {
   Forwarding([&] {
     if (facts().warm_start == nullptr) return;  // a start is a wish
-    const Turn turn(*context_);
-    if (chain_->empty()) return instance_->WarmStart(start);
+    const Turn turn(context_->turn);
+    NeedInStep();
+    if (chain_->empty()) return InBackend([&] { instance_->WarmStart(start); });
     const ProblemData& d = problem_->data();
     const auto copy = [](const double* from, std::int32_t count) {
       return from == nullptr ? std::vector<double>() : std::vector<double>(from, from + count);
@@ -207,15 +230,17 @@ void Facade::WarmStart(const sy_start& start) {
     mapped.cone_dual = data(v.cone_dual);
     mapped.x_basis = nullptr;  // a basis speaks of rows, which have moved
     mapped.row_basis = nullptr;
-    instance_->WarmStart(mapped);
+    InBackend([&] { instance_->WarmStart(mapped); });
   });
 }
 
 void Facade::Solve(const sy_control& control, sy_result& result) {
   Forwarding([&] {
-    const Turn turn(*context_);
-    Watch watch(control, facts());
+    const Turn turn(context_->turn);
+    NeedInStep();
+    Watch watch(control, facts(), context_->turn);
     const sy_control given = watch.control();
+    ForgetAnswer(result);
     sy_result found = result;
     Vectors v;
     if (!chain_->empty()) {
@@ -231,7 +256,7 @@ void Facade::Solve(const sy_control& control, sy_result& result) {
       found.x_basis = found.row_basis = nullptr;
       found.relaxed_x = nullptr;
     }
-    instance_->Solve(given, found);
+    InBackend([&] { instance_->Solve(given, found); });
     if (watch.stopped_by() != SY_NOT_SOLVED && found.termination == SY_CANCELLED) {
       found.termination = watch.stopped_by();
     }
@@ -279,8 +304,7 @@ void Facade::CheckAnswer(sy_result& result) const {
   const auto check = [&](const char* name, const double* values, std::int32_t count) {
     for (std::int32_t i = 0; values != nullptr && i < count; ++i) {
       if (std::isfinite(values[i])) continue;
-      throw Failure(SY_E_INTERNAL, Text(context_->backend->id, ": it returned ", values[i], " in ",
-                                        name, "[", i, "]"));
+      throw Failure(SY_E_INTERNAL, Text("it returned ", values[i], " in ", name, "[", i, "]"));
     }
   };
   if (result.primal != SY_NO_POINT) check("x", result.x, d.num_vars);
@@ -299,7 +323,8 @@ const void* Facade::Extension(const char* id) {
       },
       [](sy_instance* p) noexcept {
         return static_cast<std::int32_t>(plugin::As<Facade>(p).solver->updates());
-      }};
+      },
+      [](sy_instance* p) noexcept { return plugin::As<Facade>(p).solver->backend_seconds(); }};
   return std::strcmp(id, "sy.facade/1") == 0 ? &kFacade : nullptr;
 }
 
@@ -338,7 +363,7 @@ sy_solver Facade::Table(const FacadeContext& context) {
         const sy_solver& backend = at.backend->facts;
         if (backend.supports == nullptr) return;
         const sy_problem& given = chain.empty() ? whole.view() : chain.image().view();
-        Call(backend, "supports", backend.supports, &backend, host, &given);
+        Call(backend, "supports", backend.supports, at.backend->table, host, &given);
       });
     });
   };

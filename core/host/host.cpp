@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <deque>
 #include <map>
+#include <set>
 #include <sstream>
 
 #include "core/host/facade.hpp"
@@ -138,6 +139,8 @@ bool Host::State::Take(const sy_plugin& plugin, const std::string& origin) {
                      origin};
     entry.context.backend = &entry.backend;
     entry.context.host = &table;
+    entry.context.turn.serial = (entry.backend.facts.traits & SY_ONE_AT_A_TIME) != 0;
+    entry.context.turn.who = entry.backend.id;
     entry.context.configure = [this, &entry](Instance& i) { Configure(entry.backend, i); };
     entry.facade = Facade::Table(entry.context);
   }
@@ -161,9 +164,15 @@ Host::Host(HostOptions options) : state_(std::make_unique<State>()) {
   state_->options = std::move(options);
   state_->folders = state_->options.folders.value_or(DefaultPluginFolders());
   state_->FillTables(this);
-  for (const std::string& file : state_->options.files) Load(file);
+  std::set<std::filesystem::path> seen;  // one file may be reached by several names
+  const auto load_once = [&](const std::string& file) {
+    std::error_code none;
+    const std::filesystem::path real = std::filesystem::canonical(file, none);
+    if (none || seen.insert(real).second) Load(file);
+  };
+  for (const std::string& file : state_->options.files) load_once(file);
   for (const std::string& folder : state_->folders) {
-    for (const std::string& file : ModulesIn(folder)) Load(file);
+    for (const std::string& file : ModulesIn(folder)) load_once(file);
   }
 }
 
@@ -227,7 +236,7 @@ Readiness Host::Ready(const Backend& backend) const {
   try {
     Call(solver, "ready", solver.ready, backend.table, &state_->table, &facts);
   } catch (const BackendError& e) {
-    return {false, or_empty(solver.version), e.what()};
+    return {false, or_empty(solver.version), e.reason()};
   }
   facts.version[sizeof facts.version - 1] = '\0';
   facts.text[sizeof facts.text - 1] = '\0';
@@ -278,6 +287,8 @@ Candidate Judge(const Host& host, const Backend& backend, const sy_problem& prob
     for (const BridgeKind* kind : plan)
       why += (why.empty() ? "by " : ", ") + std::string(kind->name);
     return {&backend, true, why.empty() ? "takes it as it is" : why, static_cast<int>(plan.size())};
+  } catch (const BackendError& e) {
+    return {&backend, false, e.reason(), 0};
   } catch (const std::exception& e) {
     return {&backend, false, e.what(), 0};
   }
@@ -326,14 +337,20 @@ std::vector<Candidate> Host::Rank(const sy_problem& problem, const std::string& 
 
 const sy_solver* Host::State::Find(const Host& host, const sy_wish& wish) const {
   Require(wish.problem != nullptr, "a wish needs a problem");
+  Require(wish.rank >= 0, "a wish needs a rank from 0 on, got ", wish.rank);
   std::string reasons;
   std::vector<const Candidate*> good;
-  const auto ranked = host.Rank(*wish.problem, wish.names != nullptr ? wish.names : "");
+  const std::string names = wish.names != nullptr ? wish.names : "";
+  for (const std::string& name : Split(names, ',')) {
+    if (host.Find(name) != nullptr) continue;
+    reasons += Text(reasons.empty() ? "" : "; ", name, ": there is none of that name");
+  }
+  const auto ranked = host.Rank(*wish.problem, names);
   for (const Candidate& candidate : ranked) {
     const sy_solver& facts = candidate.backend->facts;
     std::string why = candidate.suitable ? "" : candidate.why;
-    if ((wish.traits & ~facts.traits) != 0) why = "lacks a trait that is needed";
-    if ((wish.honors & ~host.Facade(*candidate.backend)->honors) != 0) {
+    if (why.empty() && (wish.traits & ~facts.traits) != 0) why = "lacks a trait that is needed";
+    if (why.empty() && (wish.honors & ~host.Facade(*candidate.backend)->honors) != 0) {
       why = "does not keep a limit that is needed";
     }
     if (why.empty()) {
@@ -353,6 +370,10 @@ const sy_solver* Host::State::Find(const Host& host, const sy_wish& wish) const 
   }
   if (wish.rank >= 0 && static_cast<std::size_t>(wish.rank) < good.size()) {
     return host.Facade(*good[static_cast<std::size_t>(wish.rank)]->backend);
+  }
+  if (!good.empty()) {
+    reasons += Text(reasons.empty() ? "" : "; ", "there is none of rank ", wish.rank, ", only ",
+                    good.size(), " would serve");
   }
   throw plugin::Failure(SY_E_UNSUPPORTED, reasons.empty() ? "no backend is there" : reasons);
 }

@@ -10,14 +10,17 @@
 
 namespace switchyard {
 
-/// A call that a backend failed.
+/// A call that a backend failed: what() says who, reason() only why.
 class BackendError : public std::runtime_error {
  public:
-  BackendError(sy_status code, const std::string& text) : std::runtime_error(text), code_(code) {}
+  BackendError(sy_status code, const std::string& who, const std::string& reason)
+      : std::runtime_error(who + ": " + reason), code_(code), reason_(reason) {}
   [[nodiscard]] sy_status code() const { return code_; }
+  [[nodiscard]] const std::string& reason() const { return reason_; }
 
  private:
   sy_status code_;
+  std::string reason_;
 };
 
 /// Calls `function`, which is not to throw, as if it might; what goes wrong is a BackendError that
@@ -26,30 +29,33 @@ class BackendError : public std::runtime_error {
 template <class... Parameters, class... Arguments>
 void Call(const sy_solver& solver, const char* name, sy_status (*function)(Parameters...),
           Arguments... arguments) {
-  const std::string who = std::string(solver.id) + ": ";
-  if (function == nullptr) throw BackendError(SY_E_UNSUPPORTED, who + name + " is not offered");
+  const std::string who = solver.id;
+  const std::string call = name;
+  if (function == nullptr) throw BackendError(SY_E_UNSUPPORTED, who, call + " is not offered");
   sy_error error{};
   sy_status status = SY_OK;
   try {
     status = function(arguments..., &error);
   } catch (const std::exception& e) {
-    throw BackendError(SY_E_INTERNAL, who + name + " let an exception out: " + e.what());
+    throw BackendError(SY_E_INTERNAL, who, call + " let an exception out: " + e.what());
   } catch (...) {
-    throw BackendError(SY_E_INTERNAL, who + name + " let an exception out");
+    throw BackendError(SY_E_INTERNAL, who, call + " let an exception out");
   }
   if (status >= 0) return;
   error.text[sizeof error.text - 1] = '\0';
   const std::string text = error.text[0] != '\0' ? error.text : "no reason given";
-  throw BackendError(status, who + text);
+  throw BackendError(status, who, text);
 }
 
 /// An instance of a solver, destroyed with it.
 class Instance {
  public:
-  Instance(const sy_solver& solver, const sy_host& host) : solver_(&solver) {
-    Call(solver, "create", solver.create, &solver, &host, &instance_);
+  /// `self`: the author's own table, where `solver` is a copy of it.
+  Instance(const sy_solver& solver, const sy_host& host, const sy_solver* self = nullptr)
+      : solver_(&solver) {
+    Call(solver, "create", solver.create, self != nullptr ? self : &solver, &host, &instance_);
     if (instance_ == nullptr) {
-      throw BackendError(SY_E_INTERNAL, std::string(solver.id) + ": create gave no instance");
+      throw BackendError(SY_E_INTERNAL, solver.id, "create gave no instance");
     }
   }
   Instance(Instance&& other) noexcept

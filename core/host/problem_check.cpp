@@ -15,6 +15,8 @@ void CheckMatrix(const char* name, const sy_csc& m, std::int32_t rows, std::int3
   Require(m.rows == rows && m.cols == cols, name, " needs ", rows, " x ", cols, ", got ", m.rows,
           " x ", m.cols);
   Require(m.start != nullptr && m.start[0] == 0, name, ": column starts must begin at 0");
+  Require(m.start[m.cols] == 0 || (m.row != nullptr && m.value != nullptr), name,
+          " needs rows and values of its entries");
   for (std::int32_t j = 0; j < m.cols; ++j) {
     Require(m.start[j] <= m.start[j + 1], name, ": the starts of column ", j, " do not ascend");
     for (std::int32_t k = m.start[j]; k < m.start[j + 1]; ++k) {
@@ -34,10 +36,15 @@ void CheckVector(const char* name, const double* v, std::int32_t count) {
   }
 }
 
-void CheckBounds(const char* what, const double* lower, const double* upper, std::int32_t count) {
-  for (std::int32_t i = 0; i < count; ++i) {
-    const double l = lower != nullptr ? lower[i] : -kInf;
-    const double u = upper != nullptr ? upper[i] : kInf;
+/// `index`: of which each pair is; NULL: of the first, the second, ...
+void CheckBounds(const char* what, const double* lower, const double* upper, std::int32_t count,
+                 const std::int32_t* index = nullptr) {
+  for (std::int32_t k = 0; k < count; ++k) {
+    const std::int32_t i = index != nullptr ? index[k] : k;
+    const double l = lower != nullptr ? lower[k] : -kInf;
+    const double u = upper != nullptr ? upper[k] : kInf;
+    Require(!std::isnan(l) && !std::isnan(u), what, "[", i, "] has the bounds ", l, " and ", u,
+            ", which must be numbers");
     Require(l <= u, what, "[", i, "] has lower bound ", l, " above its upper bound ", u);
     Require(l < kInf && u > -kInf, what, "[", i, "] has the bounds ", l, " and ", u,
             ", which no number satisfies");
@@ -45,6 +52,8 @@ void CheckBounds(const char* what, const double* lower, const double* upper, std
 }
 
 void CheckCones(const sy_problem& problem) {
+  Require(problem.num_cones == 0 || problem.cones != nullptr, "the problem has ",
+          problem.num_cones, " cones, but no list of them");
   std::int64_t rows = 0;
   for (std::int32_t c = 0; c < problem.num_cones; ++c) {
     const sy_cone& cone = problem.cones[c];
@@ -58,13 +67,28 @@ void CheckCones(const sy_problem& problem) {
           problem.num_cone_rows);
 }
 
+void CheckObjectiveMatrix(const sy_csc& P, std::int32_t vars) {
+  CheckMatrix("P", P, vars, vars);
+  for (std::int32_t j = 0; j < vars; ++j) {
+    const std::int32_t end = P.start[j + 1];
+    if (end == P.start[j]) continue;
+    Require(P.row[end - 1] <= j, "P is given by its upper triangle, but has an entry in row ",
+            P.row[end - 1], " of column ", j);
+  }
+}
+
 }  // namespace
+
+void CheckSingleBounds(const sy_update& update) {
+  CheckBounds("x", update.x_lower, update.x_upper, update.num_x, update.x);
+  CheckBounds("row", update.row_lower, update.row_upper, update.num_rows, update.row);
+}
 
 void CheckProblem(const sy_problem& problem) {
   Require(problem.num_vars >= 0 && problem.num_rows >= 0 && problem.num_cones >= 0 &&
               problem.num_cone_rows >= 0,
           "a problem's counts cannot be negative");
-  if (problem.P != nullptr) CheckMatrix("P", *problem.P, problem.num_vars, problem.num_vars);
+  if (problem.P != nullptr) CheckObjectiveMatrix(*problem.P, problem.num_vars);
   if (problem.num_rows > 0) {
     Require(problem.A != nullptr, "the problem has rows, but no matrix A");
     CheckMatrix("A", *problem.A, problem.num_rows, problem.num_vars);

@@ -1,14 +1,18 @@
 #include "core/host/watch.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include "switchyard/plugin.hpp"
+#include "switchyard/problem.hpp"
 
 namespace switchyard {
 
-Watch::Watch(const sy_control& asked, const sy_solver& backend)
-    : asked_(asked), honors_(backend.honors), start_(std::chrono::steady_clock::now()) {}
+Watch::Watch(const sy_control& asked, const sy_solver& backend, const TurnQueue& queue)
+    : asked_(asked),
+      honors_(backend.honors),
+      gives_bound_((backend.traits & SY_GIVES_BOUND) != 0),
+      queue_(queue),
+      start_(std::chrono::steady_clock::now()) {}
 
 sy_control Watch::control() {
   sy_control control = asked_;
@@ -36,6 +40,7 @@ bool Watch::Stop(sy_termination reason) {
 }
 
 int Watch::OnCancelled() {
+  const Inside inside(queue_);
   if (reason_.load() != SY_NOT_SOLVED) return 1;
   if (asked_.cancelled != nullptr && asked_.cancelled(asked_.context) != 0) {
     return Stop(SY_CANCELLED) ? 1 : 0;
@@ -44,15 +49,18 @@ int Watch::OnCancelled() {
 }
 
 int Watch::OnProgress(const sy_progress& progress) {
+  const Inside inside(queue_);
   const auto watched = [&](std::uint64_t field) { return (honors_ & field) == 0; };
   if (asked_.progress != nullptr && asked_.progress(asked_.context, &progress) != 0) {
     return Stop(SY_CANCELLED) ? 1 : 0;
   }
-  if (watched(SY_HONORS_TARGET) && progress.incumbent != nullptr &&
+  if (watched(SY_HONORS_TARGET) && asked_.target > -kInfinity && progress.incumbent != nullptr &&
       progress.objective <= asked_.target) {
     return Stop(SY_TARGET) ? 1 : 0;
   }
-  if (watched(SY_HONORS_CUTOFF) && progress.bound >= asked_.cutoff) {
+  // Of a backend that promises no bound the field is not one, whatever it holds.
+  if (watched(SY_HONORS_CUTOFF) && gives_bound_ && asked_.cutoff < kInfinity &&
+      progress.bound >= asked_.cutoff) {
     return Stop(SY_CUTOFF) ? 1 : 0;
   }
   if (watched(SY_HONORS_ITERATIONS) && progress.iteration >= asked_.iterations) {

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <chrono>
 
+#include "core/host/turn.hpp"
 #include "switchyard/abi.h"
 
 namespace switchyard {
@@ -13,7 +14,8 @@ namespace switchyard {
 /// it reports what they speak of.
 class Watch {
  public:
-  Watch(const sy_control& asked, const sy_solver& backend);
+  /// While a hook is served, its thread counts as inside the backend of `queue`.
+  Watch(const sy_control& asked, const sy_solver& backend, const TurnQueue& queue);
   Watch(const Watch&) = delete;
   Watch& operator=(const Watch&) = delete;
 
@@ -30,6 +32,8 @@ class Watch {
 
   const sy_control asked_;
   const std::uint64_t honors_;
+  const bool gives_bound_;
+  const TurnQueue& queue_;
   const std::chrono::steady_clock::time_point start_;
   std::atomic<sy_termination> reason_ = SY_NOT_SOLVED;
 };

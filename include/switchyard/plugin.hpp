@@ -84,13 +84,16 @@ sy_status Guarded(sy_error* error, Body&& body) noexcept {
 /// host where one class serves several tables.
 template <class S>
 concept Solver = (std::constructible_from<S, const sy_host&> ||
-                  std::constructible_from<S, const sy_solver&, const sy_host&>) &&
-                 requires(S& s, const sy_problem& problem, const sy_control& control,
-                          sy_result& result, const sy_value& value) {
-                   s.SetOption(std::string_view(), value);
-                   s.Load(problem, std::uint64_t{});
-                   s.Solve(control, result);
-                 };
+                  std::constructible_from<S, const sy_solver&,
+                                          const sy_host&>)&&requires(S& s,
+                                                                     const sy_problem& problem,
+                                                                     const sy_control& control,
+                                                                     sy_result& result,
+                                                                     const sy_value& value) {
+  s.SetOption(std::string_view(), value);
+  s.Load(problem, std::uint64_t{});
+  s.Solve(control, result);
+};
 
 /// What an instance points to: the solver, and how far its life has come.
 template <class S>
@@ -159,8 +162,7 @@ void WriteRequired(sy_solver& t) {
 template <Solver S>
 void WriteBeforeCreation(sy_solver& t) {
   if constexpr (requires(const sy_host& h, sy_facts& f) { S::Ready(h, f); }) {
-    t.ready = [](const sy_solver*, const sy_host* host, sy_facts* facts,
-                 sy_error* error) noexcept {
+    t.ready = [](const sy_solver*, const sy_host* host, sy_facts* facts, sy_error* error) noexcept {
       return Guarded(error, [&] { S::Ready(*host, *facts); });
     };
   }
@@ -177,21 +179,21 @@ void WriteBeforeCreation(sy_solver& t) {
 
 template <Solver S>
 void WriteOptional(sy_solver& t) {
-  if constexpr (requires(S& s, const sy_update& u) { s.Update(u); }) {
+  if constexpr (requires(S & s, const sy_update& u) { s.Update(u); }) {
     t.update = [](sy_instance* p, const sy_update* update, sy_error* error) noexcept {
       return Guarded(error, [&] { Loaded<S>(p, "update").Update(Whole(*update)); });
     };
   }
-  if constexpr (requires(S& s, const sy_start& start) { s.WarmStart(start); }) {
+  if constexpr (requires(S & s, const sy_start& start) { s.WarmStart(start); }) {
     t.warm_start = [](sy_instance* p, const sy_start* start, sy_error* error) noexcept {
       return Guarded(error, [&] { Loaded<S>(p, "warm_start").WarmStart(Whole(*start)); });
     };
   }
-  if constexpr (requires(S& s) { { s.Clone() } -> std::same_as<std::unique_ptr<S>>; }) {
+  if constexpr (requires(S & s) {
+                  { s.Clone() } -> std::same_as<std::unique_ptr<S>>;
+                }) {
     t.clone = [](sy_instance* p, sy_instance** out, sy_error* error) noexcept {
-      return Guarded(error, [&] {
-        *out = NewInstance(As<S>(p).solver->Clone(), As<S>(p).loaded);
-      });
+      return Guarded(error, [&] { *out = NewInstance(As<S>(p).solver->Clone(), As<S>(p).loaded); });
     };
   }
 }
@@ -222,15 +224,15 @@ const sy_plugin& Plugin(const char* name, const char* version) {
     for (std::size_t i = 0; i < tables.size(); ++i) list[i] = &tables[i];
     return list;
   }();
-  static const sy_plugin plugin = {sizeof(sy_plugin), SY_ABI_MAJOR, SY_ABI_MINOR,
-                                   name,              version,      solvers.data()};
+  static const sy_plugin plugin = {sizeof(sy_plugin), SY_ABI_MAJOR,  SY_ABI_MINOR, name,
+                                   version,           solvers.data()};
   return plugin;
 }
 
 }  // namespace switchyard::plugin
 
 /// Defines the module's one exported function.
-#define SY_PLUGIN(name, version, ...)                              \
-  const sy_plugin* switchyard_plugin_v1() noexcept {               \
+#define SY_PLUGIN(name, version, ...)                               \
+  const sy_plugin* switchyard_plugin_v1() noexcept {                \
     return &switchyard::plugin::Plugin<__VA_ARGS__>(name, version); \
   }

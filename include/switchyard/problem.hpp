@@ -138,8 +138,8 @@ inline Csc KeepRows(const Csc& a, const std::vector<std::uint8_t>& keep) {
   for (std::size_t i = 0; i < keep.size(); ++i) place[i + 1] = place[i] + (keep[i] != 0 ? 1 : 0);
   Csc kept(place.back(), a.cols);
   for (std::size_t j = 0; j < static_cast<std::size_t>(a.cols); ++j) {
-    for (auto k = static_cast<std::size_t>(a.start[j]); k < static_cast<std::size_t>(a.start[j + 1]);
-         ++k) {
+    for (auto k = static_cast<std::size_t>(a.start[j]);
+         k < static_cast<std::size_t>(a.start[j + 1]); ++k) {
       const auto i = static_cast<std::size_t>(a.row[k]);
       if (keep[i] == 0) continue;
       kept.row.push_back(place[i]);
@@ -243,7 +243,10 @@ const T* OrNull(const std::vector<T>& v) {
 }  // namespace problem_detail
 
 inline ProblemData::ProblemData(const sy_problem& given)
-    : num_vars(given.num_vars), flags(given.flags), offset(given.offset), nlp(given.nlp),
+    : num_vars(given.num_vars),
+      flags(given.flags),
+      offset(given.offset),
+      nlp(given.nlp),
       hints(given.hints) {
   using problem_detail::Copy;
   P = given.P != nullptr ? Csc(*given.P) : Csc(num_vars, num_vars);

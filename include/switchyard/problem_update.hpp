@@ -174,27 +174,35 @@ inline void AppendRows(const sy_more& more, ProblemData& d) {
 
 }  // namespace problem_detail
 
+/// Applies an update in the order of its fields. Throws std::invalid_argument where an index or a
+/// dimension does not fit; `d` is then in between.
+inline void ApplyUpdate(const sy_update& update, ProblemData& d) {
+  using namespace problem_detail;
+  CheckSingles(update, d);
+  Need(update.whole == 0 || update.problem != nullptr, "whole sections need a problem");
+  if (update.problem != nullptr) TakeWhole(update, d);
+  SetSingles(update, d);
+  RemoveRows(update, d);
+  RemoveCones(update, d);
+  if (update.more != nullptr) {
+    AppendVariables(*update.more, d);
+    AppendRows(*update.more, d);
+  }
+}
+
 inline void Problem::Apply(const sy_update& update) {
   using namespace problem_detail;
-  CheckSingles(update, data_);
-  Need(update.whole == 0 || update.problem != nullptr, "whole sections need a problem");
-  const bool singles_alone = update.problem == nullptr && update.num_gone_rows == 0 &&
-                             update.num_gone_cones == 0 && update.more == nullptr;
+  const bool singles_alone = update.whole == 0 && update.problem == nullptr &&
+                             update.num_gone_rows == 0 && update.num_gone_cones == 0 &&
+                             update.more == nullptr;
   if (singles_alone) {  // what branch and bound does at every node: no copy
+    CheckSingles(update, data_);
     SetSingles(update, data_);
-    Seal();
-    return;
+  } else {
+    ProblemData next = data_;
+    ApplyUpdate(update, next);
+    data_ = std::move(next);
   }
-  ProblemData next = data_;
-  if (update.problem != nullptr) TakeWhole(update, next);
-  SetSingles(update, next);
-  RemoveRows(update, next);
-  RemoveCones(update, next);
-  if (update.more != nullptr) {
-    AppendVariables(*update.more, next);
-    AppendRows(*update.more, next);
-  }
-  data_ = std::move(next);
   Seal();
 }
 
