@@ -19,6 +19,8 @@ void CheckMatrix(const char* name, const sy_csc& m, std::int32_t rows, std::int3
           " needs rows and values of its entries");
   for (std::int32_t j = 0; j < m.cols; ++j) {
     Require(m.start[j] <= m.start[j + 1], name, ": the starts of column ", j, " do not ascend");
+  }
+  for (std::int32_t j = 0; j < m.cols; ++j) {
     for (std::int32_t k = m.start[j]; k < m.start[j + 1]; ++k) {
       Require(m.row[k] >= 0 && m.row[k] < rows, name, ": an entry of column ", j, " is in row ",
               m.row[k], " of ", rows);
