@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "linear/answer.hpp"
+#include "linear/settings.hpp"
 #include "switchyard/plugin.hpp"
 
 namespace switchyard::highs {
@@ -62,6 +63,21 @@ Solver::~Solver() {
     highs_.reset();
     Highs::resetGlobalScheduler(true);
   });
+}
+
+// The words of an option are those of every build of HiGHS; this one may lack what a word names.
+void Solver::SetOption(std::string_view name, const sy_value& value) {
+  Options changed = options_;
+  changed.Set(name, value);
+  worker_.Run([&] {
+    HighsOptions tried = changed.own();
+    tried.output_flag = tried.log_to_console = false;
+    if (highs_->passOptions(tried) == HighsStatus::kError) {
+      throw Failure(SY_E_ARGUMENT, "this build of HiGHS refuses the value of option " +
+                                       std::string(name) + ": " + linear::Said(value));
+    }
+  });
+  options_ = changed;
 }
 
 void Solver::WarmStart(const sy_start& start) {

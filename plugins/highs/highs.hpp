@@ -54,7 +54,7 @@ class Solver {
   Solver(const Solver&) = delete;
   Solver& operator=(const Solver&) = delete;
 
-  void SetOption(std::string_view name, const sy_value& value) { options_.Set(name, value); }
+  void SetOption(std::string_view name, const sy_value& value);
   void Load(const sy_problem& problem, std::uint64_t updates);
   void Update(const sy_update& update);
   void WarmStart(const sy_start& start);

@@ -18,6 +18,9 @@ class Options {
   /// Throws Failure: an unknown name, another type, a value out of range.
   void Set(std::string_view name, const sy_value& value);
 
+  /// The user's choices over the defaults of HiGHS.
+  [[nodiscard]] const HighsOptions& own() const { return own_; }
+
   /// What one solve runs with: the user's choice, else the host's, else the default of HiGHS.
   [[nodiscard]] HighsOptions For(const sy_control& control) const;
 
