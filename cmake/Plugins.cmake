@@ -20,7 +20,7 @@ function(switchyard_add_plugin name)
   set_target_properties(${target} PROPERTIES
     PREFIX "" OUTPUT_NAME ${name}
     LIBRARY_OUTPUT_DIRECTORY ${SWITCHYARD_PLUGIN_OUTPUT}
-    BUILD_RPATH "$ORIGIN/deps" INSTALL_RPATH "$ORIGIN/deps")
+    BUILD_WITH_INSTALL_RPATH ON INSTALL_RPATH "$ORIGIN/deps")
   set(map ${PROJECT_SOURCE_DIR}/cmake/plugin.map)
   target_link_options(${target} PRIVATE -Wl,--no-undefined -Wl,--version-script=${map})
   set_property(TARGET ${target} APPEND PROPERTY LINK_DEPENDS ${map})

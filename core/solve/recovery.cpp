@@ -54,7 +54,8 @@ Violation ViolationOf(const MathematicalProgram& program, const Eigen::VectorXd&
   const auto worst = [&](const auto& bindings, double& into) {
     for (const auto& binding : bindings) {
       const Eigen::VectorXd values = program.ValuesOf(binding.variables(), x);
-      into = std::max(into, binding.evaluator()->Violation(values));
+      const double violation = binding.evaluator()->Violation(values);
+      if (violation > into || std::isnan(violation)) into = violation;  // NaN stays: it exceeds none
     }
   };
   worst(program.bounding_box_constraints(), v.bounds);
@@ -184,6 +185,7 @@ void Recovery::JudgeCertificates(const AnswerBuffers& answer) {
   if (answer.raw.dual == SY_CERTIFICATE) {
     const bool holds = ProvesInfeasible(problem, answer.vectors);
     result_.dual = holds ? PointKind::kRay : PointKind::kNone;
+    if (!holds) result_.duals_.clear();
     if (!holds && result_.termination == Termination::kInfeasible) {
       Doubt("its certificate does not hold: the duals prove no contradiction");
     }
@@ -191,6 +193,7 @@ void Recovery::JudgeCertificates(const AnswerBuffers& answer) {
   if (answer.raw.primal == SY_CERTIFICATE) {
     const bool holds = IsUnboundedRay(problem, answer.vectors);
     result_.primal = holds ? PointKind::kRay : PointKind::kNone;
+    if (!holds) result_.x_.resize(0);
     if (!holds && result_.termination == Termination::kUnbounded) {
       Doubt("its ray leaves the constraints, or gains nothing");
     }

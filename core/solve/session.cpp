@@ -27,6 +27,11 @@ class Timer {
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+bool Answers(Termination t) {
+  return t == Termination::kOptimal || t == Termination::kInfeasible ||
+         t == Termination::kUnbounded;
+}
+
 double BackendSeconds(const Instance* instance) {
   return instance == nullptr ? 0 : ServiceOf(*instance).backend_seconds(instance->get());
 }
@@ -78,17 +83,17 @@ double SolverSession::State::Spent() const {
 MathematicalProgramResult SolverSession::State::Solve(const std::optional<Eigen::VectorXd>& guess) {
   began_ = Clock::now();
   MathematicalProgramResult result;
-  const std::uint64_t kinds = [&] {
+  {
     const Timer timer(result.seconds.lower);
-    return Lower();
-  }();
+    unsent_ |= Lower();
+  }
   if (lowering->crossed_variable() >= 0) {
     result.termination = Termination::kInfeasible;
     result.message = "the bounds of " + program.VariableName(lowering->crossed_variable()) +
                      " exclude each other";
   } else {
     try {
-      if (HandOver(kinds, guess, result)) Run(result);
+      if (HandOver(guess, result)) Run(result);
     } catch (const BackendError& e) {
       result.termination = Termination::kBackendFailed;
       result.message = lowering->WithNames(program, e.what());
@@ -112,20 +117,20 @@ std::uint64_t SolverSession::State::Lower() {
 
 // The problem reaches a backend, whole or as an update. The backend's own part of that time is
 // counted as presolve, the rest as lowering. False: no backend took it.
-bool SolverSession::State::HandOver(std::uint64_t kinds,
-                                    const std::optional<Eigen::VectorXd>& guess,
+bool SolverSession::State::HandOver(const std::optional<Eigen::VectorXd>& guess,
                                     MathematicalProgramResult& result) {
   const double before = BackendSeconds(instance.get());
   double spent = 0;
   bool taken = true;
   {
     const Timer timer(spent);
-    const bool fresh = instance == nullptr || (kinds & kStructureChanged) != 0;
+    const bool fresh = instance == nullptr || (unsent_ & kStructureChanged) != 0;
     if (fresh) {
       taken = Choose(result);
     } else {
-      SendChanges(kinds);
+      SendChanges();
     }
+    unsent_ = 0;
     if (taken) Start(guess);
   }
   const bool same_instance = BackendSeconds(instance.get()) >= before;
@@ -204,11 +209,11 @@ void SolverSession::State::SetOptions(const Backend& chosen, Instance& fresh) co
   }
 }
 
-void SolverSession::State::SendChanges(std::uint64_t kinds) {
-  if (kinds == 0 || (kinds & kStructureChanged) != 0) return;
+void SolverSession::State::SendChanges() {
+  if (unsent_ == 0) return;
   sy_update update{};
   update.size = sizeof update;
-  update.whole = static_cast<std::uint32_t>(kinds);
+  update.whole = static_cast<std::uint32_t>(unsent_);
   update.problem = &lowering->problem().view();
   instance->Update(update);
 }
@@ -287,7 +292,7 @@ void SolverSession::State::Run(MathematicalProgramResult& result) {
   control.feasibility = control.optimality = kTight;
   MathematicalProgramResult again = before;
   again.seconds = result.seconds;
-  const bool better = RunOnce(control, again);
+  const bool better = RunOnce(control, again) && Answers(again.termination);
   result.seconds = again.seconds;
   if (!better) return;
   again.notes.push_back(Text("solved again at tolerances of ", kTight,

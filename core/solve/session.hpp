@@ -33,12 +33,11 @@ struct SolverSession::State {
   using Clock = std::chrono::steady_clock;
 
   std::uint64_t Lower();
-  bool HandOver(std::uint64_t kinds, const std::optional<Eigen::VectorXd>& guess,
-                MathematicalProgramResult& result);
+  bool HandOver(const std::optional<Eigen::VectorXd>& guess, MathematicalProgramResult& result);
   bool Choose(MathematicalProgramResult& result);
   bool TryCandidate(const Candidate& candidate, std::string& why);
   void SetOptions(const Backend& chosen, Instance& fresh) const;
-  void SendChanges(std::uint64_t kinds);
+  void SendChanges();
   void Start(const std::optional<Eigen::VectorXd>& guess);
   void Run(MathematicalProgramResult& result);
   bool RunOnce(const sy_control& control, MathematicalProgramResult& result);
@@ -46,6 +45,7 @@ struct SolverSession::State {
   [[nodiscard]] sy_control Control();
   [[nodiscard]] double Spent() const;
 
+  std::uint64_t unsent_ = 0;  // what changed since the backend was last told
   Clock::time_point began_;
   std::exception_ptr thrown_;  // by the user's progress function; rethrown after the solve
 };
