@@ -29,8 +29,8 @@ install: ready ## install to PREFIX (/usr/local unless given)
 	@scripts/build products
 	@scripts/install "$(PREFIX)"
 
-bench: build ## build, and run the benchmarks
-	@scripts/bench
+bench: build ## build, and measure (INSTANCES=folder: against known optima too)
+	@scripts/bench "$(INSTANCES)"
 
 check: ## the format and the include rules, without a build
 	@scripts/check
