@@ -54,8 +54,8 @@ void CheckBounds(const char* what, const double* lower, const double* upper, std
 }
 
 void CheckCones(const sy_problem& problem) {
-  Require(problem.num_cones == 0 || problem.cones != nullptr, "the problem has ",
-          problem.num_cones, " cones, but no list of them");
+  Require(problem.num_cones == 0 || problem.cones != nullptr, "the problem has ", problem.num_cones,
+          " cones, but no list of them");
   std::int64_t rows = 0;
   for (std::int32_t c = 0; c < problem.num_cones; ++c) {
     const sy_cone& cone = problem.cones[c];

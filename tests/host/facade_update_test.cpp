@@ -23,27 +23,22 @@ constexpr std::uint64_t kNonnegative = std::uint64_t{1} << SY_CONE_NONNEGATIVE;
 constexpr std::uint64_t kZero = std::uint64_t{1} << SY_CONE_ZERO;
 
 /// A backend of these abilities with a problem in it.
-class Loaded {
- public:
-  Loaded(const ProblemData& data, std::uint64_t accepts, std::uint64_t cones,
-         std::uint64_t updates, std::uint64_t announced = kAllUpdates) {
+struct Loaded {
+  Loaded(const ProblemData& data, std::uint64_t accepts, std::uint64_t cones, std::uint64_t updates,
+         std::uint64_t announced = kAllUpdates) {
     script.table.accepts = accepts;
     script.table.cones = cones;
     script.table.updates = updates;
     if (updates == 0) script.table.update = nullptr;
-    Add(host_, script);
-    session.emplace(host_, script);
+    Add(host, script);
+    session.emplace(host, script);
     session->Load(data, announced);
   }
   Loaded(const Loaded&) = delete;
   Loaded& operator=(const Loaded&) = delete;
 
   Script script;
-
- private:
-  Host host_{Nowhere()};
-
- public:
+  Host host{Nowhere()};
   std::optional<Session> session;
 };
 
@@ -188,8 +183,8 @@ sy_update Switch(const std::int32_t& cone, const std::uint8_t& on) {
 }
 
 TEST(FacadeUpdate, ConesAreSwitchedWhereTheBackendCanAndLeftOutWhereItCannot) {
-  for (const std::uint64_t updates : {kAllUpdates, kAllUpdates & ~std::uint64_t{SY_UPDATES_SWITCH}}) {
-    const bool can = (updates & SY_UPDATES_SWITCH) != 0;
+  for (const bool can : {true, false}) {
+    const std::uint64_t updates = kAllUpdates & ~(can ? 0 : std::uint64_t{SY_UPDATES_SWITCH});
     Loaded loaded(SmallCones(), kLinear, kSecondOrder, updates);
     loaded.session->Update(Switch(0, 0));
     EXPECT_EQ(loaded.session->loads(), can ? 1 : 2);
@@ -393,7 +388,8 @@ TEST(FacadeUpdate, AfterAnySequenceABackendHoldsWhatAFreshLoadGives) {
   for (int trial = 0; trial < 60; ++trial) {
     const auto& [accepts, cones] = abilities[trial % std::size(abilities)];
     const auto updates = static_cast<std::uint64_t>(random.Below(64));
-    const auto announced = trial % 3 == 0 ? static_cast<std::uint64_t>(random.Below(64)) : kAllUpdates;
+    const auto announced =
+        trial % 3 == 0 ? static_cast<std::uint64_t>(random.Below(64)) : kAllUpdates;
     Loaded loaded(SmallCones(), accepts, cones, updates, announced);
     for (int step = 0; step < 25 && !testing::Test::HasFailure(); ++step) {
       const AnyUpdate any(random, loaded.session->data());

@@ -139,8 +139,9 @@ TEST_F(Find, NamesDecideWhereTheyAreGiven) {
 TEST_F(Find, TraitsAndLimitsThatAreNeededExcludeThoseWithout) {
   wish_.traits = SY_GIVES_DUALS;
   wish_.rank = 1;
-  EXPECT_EQ(Ask(), "plain: lacks a trait that is needed; whole: lacks a trait that is needed; "
-                   "there is none of rank 1, only 1 would serve");
+  EXPECT_EQ(Ask(),
+            "plain: lacks a trait that is needed; whole: lacks a trait that is needed; "
+            "there is none of rank 1, only 1 would serve");
   wish_.rank = 0;
   wish_.traits = 0;
   wish_.honors = SY_HONORS_NODES;
@@ -181,7 +182,7 @@ TEST_F(Find, AWishOfAnOlderAuthorOrWithoutAProblemIsNoCrash) {
   EXPECT_EQ(Ask(), "a wish needs a problem");
 }
 
-TEST(Find2, AnEmptyHostSaysSo) {
+TEST(FindWithoutBackends, SaysSo) {
   const Host host(Nowhere());
   const sy_host& table = *host.table();
   const auto& solvers =

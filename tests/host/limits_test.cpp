@@ -174,8 +174,7 @@ TEST(Limits, NoCutoffIsReachedByNoNumber) {
     p.incumbent = x;
     p.bound = kInfinity;
     p.objective = -kInfinity;
-    result.termination =
-        control.progress(control.context, &p) != 0 ? SY_CANCELLED : SY_INFEASIBLE;
+    result.termination = control.progress(control.context, &p) != 0 ? SY_CANCELLED : SY_INFEASIBLE;
   };
   Host host(Nowhere());
   Add(host, script);
@@ -206,8 +205,7 @@ TEST(Limits, ARecordOfAnOlderAuthorIsReadAsFarAsItGoes) {
     sy_progress p = At(1);
     p.size = offsetof(sy_progress, incumbent);
     p.nodes = 1000;  // behind the end
-    result.termination =
-        control.progress(control.context, &p) != 0 ? SY_CANCELLED : SY_OPTIMAL;
+    result.termination = control.progress(control.context, &p) != 0 ? SY_CANCELLED : SY_OPTIMAL;
   };
   Host host(Nowhere());
   Add(host, script);

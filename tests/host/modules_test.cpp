@@ -160,8 +160,9 @@ TEST(Modules, OneThatIsNotReadySaysWhyAndIsAskedAnew) {
 }
 
 TEST(Modules, WhatThrowsThroughTheTableIsCaughtAndSaid) {
-  for (const auto& [fake, said] : {std::pair("load_throws", "thrown through the table"),
-                                   std::pair("throws_no_exception_class", "let an exception out")}) {
+  for (const auto& [fake, said] :
+       {std::pair("load_throws", "thrown through the table"),
+        std::pair("throws_no_exception_class", "let an exception out")}) {
     Host host(Nowhere());
     ASSERT_TRUE(host.Load(Fake(fake)));
     Session session(host, *host.Find("module"));
@@ -180,9 +181,8 @@ TEST(Modules, TheFirstOfTwoWithOneIdServesAndTheOtherIsReported) {
   EXPECT_FALSE(host.Load(Fake("twin")));
   ASSERT_EQ(host.backends().size(), 1U);
   EXPECT_EQ(host.Ready(*host.Find("module")).version, "1.0");
-  EXPECT_EQ(host.problems().back().reason,
-            "org.fake.module is already there, from " + Fake("well_behaved") +
-                ", which comes first");
+  EXPECT_EQ(host.problems().back().reason, "org.fake.module is already there, from " +
+                                               Fake("well_behaved") + ", which comes first");
 }
 
 TEST(Files, WhatIsNoModuleIsSaid) {
@@ -190,8 +190,7 @@ TEST(Files, WhatIsNoModuleIsSaid) {
   EXPECT_EQ(Verdict(folder.path() + "/none.so"), "not loadable: file absent");
   EXPECT_EQ(Verdict(folder.path() + "/none/none.so"), "not loadable: file absent");
   EXPECT_EQ(Verdict(folder.path()), "not loadable: not a file");
-  EXPECT_EQ(Verdict(folder.Write("empty.so", "")),
-            "not loadable: not a module: the file is empty");
+  EXPECT_EQ(Verdict(folder.Write("empty.so", "")), "not loadable: not a module: the file is empty");
   for (const std::string text : {"x", "NAME a\nROWS\n", "#!/bin/sh\n"}) {
     EXPECT_EQ(Verdict(folder.Write("text.so", text)),
               "not loadable: not a module: it does not begin as an ELF file does");
@@ -302,8 +301,8 @@ TEST(Search, AFileThatIsNamedAndFoundIsNotItsOwnRival) {
   const Folder folder;
   const std::string file = folder.Copy("well_behaved", "module.so");
   HostOptions options;
-  options.files = {file, folder.path() + "/../" + fs::path(folder.path()).filename().string() +
-                             "/module.so"};
+  options.files = {
+      file, folder.path() + "/../" + fs::path(folder.path()).filename().string() + "/module.so"};
   options.folders = std::vector<std::string>{folder.path(), folder.path()};
   const Host host(options);
   EXPECT_EQ(host.backends().size(), 1U);

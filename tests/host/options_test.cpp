@@ -12,8 +12,7 @@ using testing::Pair;
 
 constexpr std::uint32_t kSize = sizeof(sy_option);
 const char* const kChoices[] = {"simplex", "ipm", nullptr};
-const sy_option kTolerance = {kSize, 0,   "tolerance", "how near",
-                              {SY_REAL, 0, {}}, 0, 1, nullptr};
+const sy_option kTolerance = {kSize, 0, "tolerance", "how near", {SY_REAL, 0, {}}, 0, 1, nullptr};
 const sy_option kRounds = {kSize, 0, "rounds", "how often", {SY_INTEGER, 0, {}}, -1, 100, nullptr};
 const sy_option kPresolve = {kSize, 0, "presolve", "first?", {SY_INTEGER, 0, {}}, 0, 1, nullptr};
 const sy_option kMethod = {kSize, 0, "method", "which", {SY_TEXT, 0, {}}, 0, 0, kChoices};
@@ -61,14 +60,13 @@ TEST_F(Options, AValueOutOfItsRangeIsSaid) {
   EXPECT_EQ(Set("rounds", "99999999999999999999"),
             "option rounds needs an integer, got \"99999999999999999999\"");
   EXPECT_EQ(Set("presolve", "maybe"), "option presolve needs true or false, got \"maybe\"");
-  EXPECT_EQ(Set("method", "barrier"),
-            "option method needs one of simplex, ipm; got \"barrier\"");
+  EXPECT_EQ(Set("method", "barrier"), "option method needs one of simplex, ipm; got \"barrier\"");
 }
 
 TEST_F(Options, EveryInstanceGetsThemAsWhatTheyAre) {
-  for (const auto& [name, value] : {std::pair("tolerance", "0.25"), std::pair("rounds", "-1"),
-                                    std::pair("presolve", "off"), std::pair("method", "ipm"),
-                                    std::pair("file", "a b")}) {
+  for (const auto& [name, value] :
+       {std::pair("tolerance", "0.25"), std::pair("rounds", "-1"), std::pair("presolve", "off"),
+        std::pair("method", "ipm"), std::pair("file", "a b")}) {
     EXPECT_EQ(Set(name, value), "(nothing was thrown)");
   }
   const Session session(host_, script_);

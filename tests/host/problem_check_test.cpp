@@ -72,7 +72,9 @@ TEST(CheckProblem, Matrices) {
   EXPECT_EQ(Said([](ProblemData& d) { d.A.row[0] = -1; }),
             "A: an entry of column 0 is in row -1 of 2");
   EXPECT_EQ(Said([](ProblemData& d) { d.A.row[1] = 0; }), "A: the rows of column 0 do not ascend");
-  EXPECT_EQ(Said([](ProblemData& d) { d.A.start = {0, 5, 4}; }),
+  EXPECT_EQ(Said([](ProblemData& d) {
+              d.A.start = {0, 5, 4};
+            }),
             "A: the starts of column 1 do not ascend");
   EXPECT_EQ(Said([](ProblemData& d) { d.A.start[0] = 1; }), "A: column starts must begin at 0");
   EXPECT_EQ(Said([](ProblemData& d) { d.A.value.clear(); }),
@@ -98,8 +100,7 @@ TEST(CheckProblem, Cones) {
 TEST(CheckProblem, Sections) {
   EXPECT_EQ(SaidOf([](sy_problem& p) { p.num_rows = -1; }),
             "a problem's counts cannot be negative");
-  EXPECT_EQ(SaidOf([](sy_problem& p) { p.A = nullptr; }),
-            "the problem has rows, but no matrix A");
+  EXPECT_EQ(SaidOf([](sy_problem& p) { p.A = nullptr; }), "the problem has rows, but no matrix A");
   EXPECT_EQ(SaidOf([](sy_problem& p) { p.F = nullptr; }),
             "the problem has cone rows, but no matrix F");
   EXPECT_EQ(SaidOf([](sy_problem& p) { p.cones = nullptr; }),

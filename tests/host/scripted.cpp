@@ -104,7 +104,8 @@ Script::Script(const char* id) {
 
 const Backend& Add(Host& host, Script& script) {
   const bool taken = host.Register(script.plugin);
-  return taken ? *host.Find(script.table.id) : throw std::logic_error(host.problems().back().reason);
+  return taken ? *host.Find(script.table.id)
+               : throw std::logic_error(host.problems().back().reason);
 }
 
 HostOptions Nowhere() {

@@ -36,7 +36,7 @@ struct Script {
   std::mutex recording;
   Problem problem;  // as loaded and updated
   std::vector<std::string> calls;
-  std::uint64_t announced = 0;     // kinds of update, at the last load
+  std::uint64_t announced = 0;       // kinds of update, at the last load
   std::vector<std::uint64_t> kinds;  // of each update
   sy_update last_update{};           // its counts; the pointers are not good any more
   std::vector<double> start_x, start_row_dual;
@@ -72,8 +72,7 @@ class Session {
  public:
   Session(const Host& host, const Backend& backend)
       : instance_(*host.Facade(backend), *host.table()) {}
-  explicit Session(const Host& host, Script& script)
-      : Session(host, *host.Find(script.table.id)) {}
+  explicit Session(const Host& host, Script& script) : Session(host, *host.Find(script.table.id)) {}
 
   void Load(const ProblemData& data, std::uint64_t updates = 0);
   void Update(const sy_update& update);

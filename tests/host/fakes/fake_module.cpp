@@ -30,7 +30,7 @@
 #define FAKE_VERSION "1.0"
 #endif
 
-extern "C" int fake_dependency();    // of a library that is not on the run path
+extern "C" int fake_dependency();     // of a library that is not on the run path
 extern "C" int fake_symbol_absent();  // of no library
 
 namespace {
@@ -134,7 +134,9 @@ const sy_plugin* Plugin() {
 extern "C" SY_EXPORT const sy_plugin* ThrowingEntry() __asm__(SY_PLUGIN_ENTRY);
 const sy_plugin* ThrowingEntry() { throw std::runtime_error(Plugin()->name); }
 #elif FAKE == ENTRY_RETURNS_NULL
-const sy_plugin* switchyard_plugin_v1() noexcept { return Plugin() == nullptr ? Plugin() : nullptr; }
+const sy_plugin* switchyard_plugin_v1() noexcept {
+  return Plugin() == nullptr ? Plugin() : nullptr;
+}
 #elif FAKE == ENTRY_ABSENT
 extern "C" SY_EXPORT const sy_plugin* another_name() { return Plugin(); }
 #elif FAKE == ENTRY_OF_VERSION_2
