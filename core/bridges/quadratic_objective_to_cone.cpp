@@ -1,10 +1,12 @@
 // min 1/2 x'Px + q'x becomes min t + q'x with 2 t 1 >= |Sx|^2, P = S'S: a variable t and a rotated
 // cone (t, 1, Sx) behind all others.
 //
-// S comes from a pivoted LDL' of each connected component of P, dense: components of objectives are
-// small or diagonal, and pivoting is what a semidefinite P needs. At a solution the cone's dual is
-// (1, t, -Sx), so S'(-Sx) = -Px stands where Px stood, and the other duals pass as they are.
-#include <Eigen/Cholesky>
+// S comes from a pivoted Cholesky factor of each connected component of P, dense: components of
+// objectives are small or diagonal. Each pivot is the largest entry that the steps before it left
+// on the diagonal, so a semidefinite P of any rank ends with a rest that is 0 to rounding. At a
+// solution the cone's dual is (1, t, -Sx), so S'(-Sx) = -Px stands where Px stood, and the other
+// duals pass as they are.
+#include <Eigen/Core>
 #include <cmath>
 #include <numeric>
 
@@ -94,25 +96,20 @@ std::int32_t FactorComponent(const Csc& P, const std::vector<std::int32_t>& memb
       block(a, b) = block(b, a) = P.value[k];
     }
   }
-  const Eigen::LDLT<Eigen::MatrixXd> factors(block);
-  const Eigen::VectorXd pivots = factors.vectorD();
-  const double scale = block.diagonal().cwiseAbs().maxCoeff();
-  Require(factors.info() == Eigen::Success && pivots.minCoeff() >= -1e-9 * scale,
-          "the quadratic objective is not convex: a pivot of its matrix is ", pivots.minCoeff(),
-          " in the component of x[", members.front(), "]");
-  // block = P' L D L' P: row r of S is sqrt(d_r) (L' P)_r.
-  const Eigen::MatrixXd upper = Eigen::MatrixXd(factors.matrixU()) * factors.transpositionsP();
+  const double scale = block.cwiseAbs().maxCoeff();
   std::int32_t rows = 0;
-  for (Eigen::Index r = 0; r < n; ++r) {
-    if (pivots[r] <= 1e-14 * scale) continue;
+  for (Eigen::Index p = 0; block.diagonal().maxCoeff(&p) > 1e-14 * scale; ++rows) {
+    const Eigen::VectorXd s = block.col(p) / std::sqrt(block(p, p));
     for (Eigen::Index c = 0; c < n; ++c) {
-      if (upper(r, c) != 0) {
-        S.Add(first_row + rows, members[static_cast<std::size_t>(c)],
-              std::sqrt(pivots[r]) * upper(r, c));
-      }
+      if (s[c] != 0) S.Add(first_row + rows, members[static_cast<std::size_t>(c)], s[c]);
     }
-    ++rows;
+    block.noalias() -= s * s.transpose();
+    block.row(p).setZero();  // what rounding left of it is not a pivot again
+    block.col(p).setZero();
   }
+  Require(block.cwiseAbs().maxCoeff() <= 1e-9 * scale,
+          "the quadratic objective is not convex: a pivot of its matrix is ",
+          block.diagonal().minCoeff(), " in the component of x[", members.front(), "]");
   return rows;
 }
 
