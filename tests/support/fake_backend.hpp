@@ -2,6 +2,7 @@
 // choose: an honest solver of problems with bounds alone, or whatever the test puts in its place.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -28,7 +29,8 @@ inline void SolveBox(const sy_problem& p, const sy_control&, sy_result& result) 
   for (std::int32_t j = 0; j < p.num_vars; ++j) {
     const double lower = p.x_lower != nullptr ? p.x_lower[j] : -kInfinity;
     const double upper = p.x_upper != nullptr ? p.x_upper[j] : kInfinity;
-    const double side = p.q[j] > 0 ? lower : p.q[j] < 0 ? upper : std::max(lower, std::min(0., upper));
+    double side = std::max(lower, std::min(0.0, upper));
+    if (p.q[j] != 0) side = p.q[j] > 0 ? lower : upper;
     result.x[j] = side;
     result.x_dual[j] = p.q[j];
     if (std::isfinite(side)) continue;
@@ -118,7 +120,8 @@ class FakeBackend {
   Behaviour& behaviour() { return *behaviour_; }
   Host& host() { return host_; }
   MathematicalProgramResult Solve(const MathematicalProgram& program,
-                                  const SolverOptions& options = {}, const std::string& names = "") {
+                                  const SolverOptions& options = {},
+                                  const std::string& names = "") {
     return SolverInterface(names, host_).Solve(program, std::nullopt, options);
   }
 
@@ -133,7 +136,7 @@ class FakeBackend {
                      SY_ACCEPTS_NONCONVEX_OBJECTIVE;
     table_.integer_accepts = table_.accepts | SY_ACCEPTS_INTEGER;
     table_.cones = table_.integer_cones = 0x7f;
-    table_.traits = SY_GIVES_DUALS | SY_GIVES_CERTIFICATES;
+    table_.traits = SY_GIVES_DUALS | SY_GIVES_CERTIFICATES | SY_GIVES_BOUND;
     table_.updates = SY_UPDATES_BOUNDS | SY_UPDATES_VECTORS | SY_UPDATES_VALUES;
     table_.context = behaviour_.get();
     speed_.size = mode_.size = sizeof speed_;
@@ -155,6 +158,14 @@ class FakeBackend {
   sy_plugin plugin_ = {sizeof(sy_plugin), SY_ABI_MAJOR, SY_ABI_MINOR, "fakes", "1.0", solvers_};
   Host host_{HostOptions{{}, std::vector<std::string>{}, {}}};
 };
+
+/// Options of which `edit` sets some.
+template <class Edit>
+SolverOptions With(Edit&& edit) {
+  SolverOptions options;
+  edit(options);
+  return options;
+}
 
 /// What a call that must throw said.
 template <class Call>

@@ -1,8 +1,9 @@
 // tests/support/known_answers.hpp - random problems whose answer is known by construction.
 //
-// An optimum: choose x, and duals of the right signs that are complementary to it; then stationarity
-// gives q. A contradiction: choose duals with x_dual + A'row_dual + F'cone_dual = 0, then sides that
-// add up to 1. A ray d: choose bounds and cones that it recedes into, P with Pd = 0, q'd = -1.
+// An optimum: choose x, and duals of the right signs that are complementary to it; stationarity
+// then gives q. A contradiction: choose duals with x_dual + A'row_dual + F'cone_dual = 0, then
+// sides that add up to 1. A ray d: choose bounds and cones that it recedes into, P with Pd = 0,
+// q'd = -1.
 #pragma once
 
 #include <cmath>
@@ -81,7 +82,8 @@ inline Pair ComplementaryPair(const sy_cone& cone, Random& random) {
   }
 }
 
-/// Sides around `value` and a dual that fits them: equal, lower, upper, both or none; active or not.
+/// Sides around `value` and a dual that fits them: equal, lower, upper, both or none; active or
+/// not.
 inline void ChooseSides(Random& random, double value, double& lower, double& upper, double& dual) {
   lower = -kInfinity;
   upper = kInfinity;
