@@ -55,7 +55,7 @@ Violation ViolationOf(const MathematicalProgram& program, const Eigen::VectorXd&
     for (const auto& binding : bindings) {
       const Eigen::VectorXd values = program.ValuesOf(binding.variables(), x);
       const double violation = binding.evaluator()->Violation(values);
-      if (violation > into || std::isnan(violation)) into = violation;  // NaN stays: it exceeds none
+      if (violation > into || std::isnan(violation)) into = violation;  // NaN stays
     }
   };
   worst(program.bounding_box_constraints(), v.bounds);

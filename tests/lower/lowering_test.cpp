@@ -55,7 +55,8 @@ void PrintTo(const Term& term, std::ostream* out) { *out << term.name; }
 
 class CostTerm : public ::testing::TestWithParam<Term> {};
 
-// The point with the epigraph variables at their least is feasible, and costs what the program says.
+// The point with the epigraph variables at their least is feasible, and costs what the program
+// says.
 TEST_P(CostTerm, CostsWhatTheProgramSays) {
   Fixture f;
   GetParam().add(f, f.mixed, 5);
@@ -224,9 +225,9 @@ TEST(Lowering, ConesAreAsFarFromAPointAsTheProgramSays) {
     for (std::size_t i = 0; i < s.size(); ++i) s[i] += d.g[i];
     for (std::size_t k = 0; k < d.cones.size(); ++k) {
       const auto& binding = f.program.cone_constraints()[k];
-      const double violation = FactsOf(d.cones[k].kind)
-                                   .violation(&s[static_cast<std::size_t>(lowering.FirstConeRow(k))],
-                                              d.cones[k].dim, d.cones[k].parameter);
+      const auto first = static_cast<std::size_t>(lowering.FirstConeRow(k));
+      const double violation =
+          FactsOf(d.cones[k].kind).violation(&s[first], d.cones[k].dim, d.cones[k].parameter);
       const Eigen::VectorXd values = f.program.ValuesOf(binding.variables(), x);
       EXPECT_NEAR(violation, binding.evaluator()->Violation(values), 1e-10);
     }
