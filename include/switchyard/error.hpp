@@ -5,10 +5,12 @@
 #include <stdexcept>
 #include <string>
 
+#include "switchyard/export.hpp"
+
 namespace switchyard {
 
 /// The caller's mistake, thrown by the call that made it.
-class InvalidArgument : public std::invalid_argument {
+class SWITCHYARD_EXPORT InvalidArgument : public std::invalid_argument {
  public:
   using std::invalid_argument::invalid_argument;
 };

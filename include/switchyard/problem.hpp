@@ -8,7 +8,6 @@
 #include <limits>
 #include <numeric>
 #include <stdexcept>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -106,10 +105,8 @@ inline double QuadraticForm(const sy_csc& p, const double* x) {
 inline double Objective(const sy_problem& problem, const double* x) {
   double sum = problem.offset;
   if (problem.P != nullptr) sum += 0.5 * QuadraticForm(*problem.P, x);
-  for (std::int32_t j = 0; problem.q != nullptr && j < problem.num_vars; ++j) {
-    sum += problem.q[j] * x[j];
-  }
-  return sum;
+  const std::int32_t n = problem.q != nullptr ? problem.num_vars : 0;
+  return std::inner_product(x, x + n, problem.q, sum);
 }
 
 /// [top; bottom].
@@ -184,9 +181,7 @@ struct ProblemData {
   ProblemData() = default;
   explicit ProblemData(const sy_problem& given);
 
-  [[nodiscard]] std::int32_t num_rows() const {
-    return static_cast<std::int32_t>(row_lower.size());
-  }
+  [[nodiscard]] std::int32_t num_rows() const { return std::int32_t(row_lower.size()); }
   [[nodiscard]] std::int32_t num_cones() const { return static_cast<std::int32_t>(cones.size()); }
   [[nodiscard]] std::int32_t num_cone_rows() const { return static_cast<std::int32_t>(g.size()); }
   [[nodiscard]] bool has_integers() const {

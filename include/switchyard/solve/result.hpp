@@ -72,8 +72,9 @@ struct Considered {
 /// Three things apart: why it stopped, what the primal vector is, what the dual vectors are.
 ///
 /// Nothing here is taken on trust: the objective and violation are recomputed in the program, an
-/// optimum of a continuous convex program stands only with duals that support it to 1e-6, and
-/// certificates are checked. Where the backend's word was not supported, `message` says so.
+/// optimum of a continuous convex program stands, where the backend gives duals, only if they
+/// support it to 1e-6, and certificates are checked. Where the backend's word was not supported,
+/// `termination` is kNumericalTrouble and `notes` says what it claimed.
 class SWITCHYARD_EXPORT MathematicalProgramResult {
  public:
   /// Solved to optimality, or to a target or local optimum asked for, at a feasible point.
