@@ -80,9 +80,8 @@ TEST(PlanBridges, FindsTheShortestChainAndSaysWhereThereIsNone) {
 }
 
 TEST(PlanBridges, SaysWhatNoBridgeRemoves) {
-  const Planned planned =
-      PlanBridges(SY_ACCEPTS_BOUNDS | ConeFeature(SY_CONE_POWER) | SY_ACCEPTS_INTEGER,
-                  SY_ACCEPTS_ROWS);
+  const Planned planned = PlanBridges(
+      SY_ACCEPTS_BOUNDS | ConeFeature(SY_CONE_POWER) | SY_ACCEPTS_INTEGER, SY_ACCEPTS_ROWS);
   EXPECT_FALSE(planned.found);
   EXPECT_EQ(DescribeFeatures(planned.missing), "integer variables, power cones");
 }
@@ -177,8 +176,7 @@ TEST(BridgeChain, KeepsHintsOfVariablesAndSaysWhichItDropped) {
             std::vector<std::string>{
                 "the hint sy.blocks/1 was dropped: a bridge moved what it speaks of"});
 
-  const BridgeChain appended(problem,
-                             PlanBridges(SY_ACCEPTS_QUADRATIC_OBJECTIVE, kAllCones).plan);
+  const BridgeChain appended(problem, PlanBridges(SY_ACCEPTS_QUADRATIC_OBJECTIVE, kAllCones).plan);
   EXPECT_EQ(Kept(appended), std::set<std::string>{"sy.sos1/1"});
   EXPECT_EQ(appended.dropped_hints().size(), 2u);
 }

@@ -125,11 +125,8 @@ TEST(RotateCones, ThereAndBackIsTheSameProblem) {
 
 TEST(QuadraticObjectiveToCone, GivesEachComponentAFactorOfItsRank) {
   // Rank 1 on (0, 2), rank 2 on (1, 3), nothing on 4.
-  const ProblemData d = Quadratic({{1, 0, 2, 0, 0},
-                                   {0, 2, 0, 1, 0},
-                                   {0, 0, 4, 0, 0},
-                                   {0, 0, 0, 2, 0},
-                                   {0, 0, 0, 0, 0}});
+  const ProblemData d = Quadratic(
+      {{1, 0, 2, 0, 0}, {0, 2, 0, 1, 0}, {0, 0, 4, 0, 0}, {0, 0, 0, 2, 0}, {0, 0, 0, 0, 0}});
   const auto bridge = Apply(QuadraticObjectiveToCone(), d);
   const ProblemData& image = bridge->image().data();
   ASSERT_EQ(image.cones.size(), 1u);

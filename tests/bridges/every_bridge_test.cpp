@@ -58,9 +58,9 @@ TEST_P(EveryBridge, RemovesWhatItSaysAndAddsNothingElse) {
 TEST_P(EveryBridge, IsAPureMap) {
   Random random(2);
   const KnownAnswer known = KnownOptimum(Everything(), random);
-  EXPECT_EQ(ProblemDifference(Apply(known.problem)->image().data(),
-                              Apply(known.problem)->image().data()),
-            0u);
+  EXPECT_EQ(
+      ProblemDifference(Apply(known.problem)->image().data(), Apply(known.problem)->image().data()),
+      0u);
 }
 
 TEST_P(EveryBridge, TakesAnOptimumToAnOptimumOfTheSameObjective) {
@@ -229,8 +229,8 @@ std::string NameOf(const ::testing::TestParamInfo<std::size_t>& info) {
       name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
   return name;
 }
-INSTANTIATE_TEST_SUITE_P(Table, EveryBridge,
-                         ::testing::Range<std::size_t>(0, BridgeKinds().size()), NameOf);
+INSTANTIATE_TEST_SUITE_P(Table, EveryBridge, ::testing::Range<std::size_t>(0, BridgeKinds().size()),
+                         NameOf);
 
 }  // namespace
 }  // namespace switchyard::testing

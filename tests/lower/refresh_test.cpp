@@ -98,8 +98,8 @@ TEST(Refresh, ACostTakesTheRowsOfAnother) {
   MathematicalProgram program;
   const auto x = program.NewContinuousVariables(2);
   const Eigen::Matrix2d I = Eigen::Matrix2d::Identity();
-  const auto first = program.AddCost(
-      CreateBinding(std::make_shared<LInfNormCost>(I, Eigen::Vector2d::Zero()), x));
+  const auto first =
+      program.AddCost(CreateBinding(std::make_shared<LInfNormCost>(I, Eigen::Vector2d::Zero()), x));
   Lowering lowering(program);
   program.RemoveCost(first);
   program.AddLinearConstraint(Eigen::Matrix<double, 4, 2>::Ones(), -Eigen::Vector4d::Ones(),
@@ -124,8 +124,8 @@ TEST(WithNames, PutsTheUsersNamesWhereTheProblemsStand) {
   auto rows = program.AddLinearConstraint(Eigen::Matrix2d::Identity(), Eigen::Vector2d::Zero(),
                                           Eigen::Vector2d::Ones(), x);
   rows.evaluator()->set_row_names({"supply", "demand"});
-  auto free = program.AddLinearEqualityConstraint(Eigen::Matrix2d::Identity(),
-                                                  Eigen::Vector2d::Zero(), x);
+  auto free =
+      program.AddLinearEqualityConstraint(Eigen::Matrix2d::Identity(), Eigen::Vector2d::Zero(), x);
   free.evaluator()->set_description("balance");
   auto cone = program.AddLorentzConeConstraint(x);
   cone.evaluator()->set_description("reach");

@@ -147,8 +147,8 @@ TEST(Lies, ATargetNeedsAFeasiblePoint) {
 }
 
 TEST(Lies, AFalseContradictionIsFoundOut) {
-  const auto result = Solve(
-      {.termination = SY_INFEASIBLE, .primal = SY_NO_POINT, .dual = SY_CERTIFICATE});
+  const auto result =
+      Solve({.termination = SY_INFEASIBLE, .primal = SY_NO_POINT, .dual = SY_CERTIFICATE});
   EXPECT_EQ(result.termination, Termination::kNumericalTrouble);
   EXPECT_EQ(result.dual, PointKind::kNone);
   EXPECT_FALSE(result.has_duals());
@@ -238,9 +238,8 @@ TEST(Lies, AnAnswerIsNotAskedForAgainWhereTheUserSetTheTolerance) {
   Diet diet;
   FakeBackend fake([](sy_solver& t) { t.honors = kTolerances; });
   fake.behaviour().answer = Says({.x = 2 + 1e-4});
-  const auto result = fake.Solve(diet.program, With([](SolverOptions& o) {
-                                 o.optimality_tolerance = 1e-4;
-                               }));
+  const auto result =
+      fake.Solve(diet.program, With([](SolverOptions& o) { o.optimality_tolerance = 1e-4; }));
   EXPECT_EQ(fake.behaviour().solves, 1);
   EXPECT_EQ(result.termination, Termination::kNumericalTrouble);
   EXPECT_EQ(result.dual, PointKind::kNearlyFeasible);

@@ -161,8 +161,7 @@ TEST(Limits, TheHostKeepsLimitsThroughProgress) {
     return fake.Solve(b.program, With(edit));
   };
   using O = SolverOptions;
-  EXPECT_EQ(ended([](O& o) { o.iteration_limit = 10; }).termination,
-            Termination::kIterationLimit);
+  EXPECT_EQ(ended([](O& o) { o.iteration_limit = 10; }).termination, Termination::kIterationLimit);
   EXPECT_EQ(ended([](O& o) { o.iteration_limit = 10; }).iterations, 10);
   EXPECT_EQ(ended([](O& o) { o.node_limit = 10; }).termination, Termination::kNodeLimit);
   EXPECT_EQ(ended([](O& o) { o.cutoff = -5; }).termination, Termination::kCutoff);
@@ -257,8 +256,7 @@ TEST(Options, ReachTheBackendThatIsNamedOrChosen) {
   o.SetOption(SolverId(""), "mode", "careful");
   o.SetOption(SolverId("another"), "nonsense", 1.5);
   fake.Solve(b.program, o);
-  EXPECT_EQ(fake.behaviour().options,
-            (std::vector<std::string>{"mode=careful", "speed=3"}));
+  EXPECT_EQ(fake.behaviour().options, (std::vector<std::string>{"mode=careful", "speed=3"}));
 }
 
 TEST(Options, AMistakeIsThrown) {
