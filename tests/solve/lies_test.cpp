@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/lower/lowering.hpp"
+#include "core/solve/check.hpp"
 #include "tests/support/fake_backend.hpp"
 
 namespace switchyard::testing {
@@ -243,6 +245,15 @@ TEST(Lies, AnAnswerIsNotAskedForAgainWhereTheUserSetTheTolerance) {
   EXPECT_EQ(fake.behaviour().solves, 1);
   EXPECT_EQ(result.termination, Termination::kNumericalTrouble);
   EXPECT_EQ(result.dual, PointKind::kNearlyFeasible);
+}
+
+// 1e-8 x >= 1 holds at x = 1e8, though its row with the dual 1 looks like a contradiction.
+TEST(Certificates, ASmallResidualOnAFreeColumnProvesNothing) {
+  MathematicalProgram program;
+  const auto x = program.NewContinuousVariables(1);
+  program.AddLinearConstraint(Eigen::RowVectorXd::Constant(1, 1e-8), 1, kInfinity, x);
+  const Lowering lowering(program);
+  EXPECT_FALSE(ProvesInfeasible(lowering.problem().view(), {{}, {-1e-8}, {1}, {}}));
 }
 
 }  // namespace
