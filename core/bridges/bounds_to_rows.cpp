@@ -10,12 +10,12 @@ namespace {
 
 class BoundsToRowsBridge final : public Bridge {
  public:
-  BoundsToRowsBridge(ProblemData image, std::vector<std::int32_t> bounded, std::size_t rows)
-      : Bridge(std::move(image)), bounded_(std::move(bounded)), rows_(rows) {}
+  BoundsToRowsBridge(std::size_t vars, std::vector<std::int32_t> bounded, std::size_t rows)
+      : vars_(vars), bounded_(std::move(bounded)), rows_(rows) {}
 
   void Back(Vectors& v) const override {
     if (v.row_dual.empty()) return;
-    v.x_dual.resize(static_cast<std::size_t>(image().data().num_vars), 0.0);
+    v.x_dual.resize(vars_, 0.0);
     for (std::size_t k = 0; k < bounded_.size(); ++k) {
       v.x_dual[static_cast<std::size_t>(bounded_[k])] += v.row_dual[rows_ + k];
     }
@@ -32,12 +32,12 @@ class BoundsToRowsBridge final : public Bridge {
   }
 
  private:
+  std::size_t vars_;
   std::vector<std::int32_t> bounded_;
   std::size_t rows_;
 };
 
-std::unique_ptr<Bridge> Apply(const sy_problem& problem) {
-  ProblemData d(problem);
+Bridged Apply(ProblemData d) {
   const auto rows = static_cast<std::size_t>(d.num_rows());
   std::vector<std::int32_t> bounded;
   Csc singles(0, d.num_vars);
@@ -55,7 +55,8 @@ std::unique_ptr<Bridge> Apply(const sy_problem& problem) {
   d.A = StackRows(d.A, singles);
   d.x_lower.clear();
   d.x_upper.clear();
-  return std::make_unique<BoundsToRowsBridge>(std::move(d), std::move(bounded), rows);
+  const auto vars = static_cast<std::size_t>(d.num_vars);
+  return {std::move(d), std::make_unique<BoundsToRowsBridge>(vars, std::move(bounded), rows)};
 }
 
 }  // namespace

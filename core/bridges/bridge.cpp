@@ -99,16 +99,18 @@ Planned PlanBridges(Features features, Features abilities) {
 }
 
 BridgeChain::BridgeChain(const Problem& problem, const BridgePlan& plan) {
-  const sy_problem* now = &problem.view();
-  if (AnyOff(problem.data())) {
-    bridges_.push_back(LeaveOutSwitchedOff(problem.data()));
-    now = &bridges_.back()->image().view();
-  }
-  for (const BridgeKind* kind : plan) {
-    bridges_.push_back(kind->apply(*now));
-    now = &bridges_.back()->image().view();
-  }
-  if (!bridges_.empty() && problem.view().hints != nullptr) MapHints(problem.view());
+  const bool any_off = AnyOff(problem.data());
+  if (plan.empty() && !any_off) return;
+  ProblemData now = problem.data();
+  if (!any_off) now.cone_on.clear();
+  const auto take = [&](Bridged next) {
+    now = std::move(next.image);
+    bridges_.push_back(std::move(next.maps));
+  };
+  if (any_off) take(LeaveOutSwitchedOff(std::move(now)));
+  for (const BridgeKind* kind : plan) take(kind->apply(std::move(now)));
+  image_ = Problem(std::move(now));
+  if (problem.view().hints != nullptr) MapHints(problem.view());
 }
 
 // Groups of variables pass as they are, since variables keep their places; what has an entry for
@@ -126,7 +128,7 @@ void BridgeChain::MapHints(const sy_problem& problem) {
     }
   }
   hints_.push_back({nullptr, nullptr});
-  bridges_.back()->image().Change([&](ProblemData& d) { d.hints = hints_.data(); });
+  image_.Change([&](ProblemData& d) { d.hints = hints_.data(); });
 }
 
 void BridgeChain::Back(Vectors& v) const {

@@ -29,25 +29,25 @@ std::string DescribeFeatures(Features features);
 /// Is a cone switched off?
 bool AnyOff(const ProblemData& problem);
 
-/// One application of a bridge: the image, and the maps of vectors over the two problems.
+/// The maps of vectors over a problem and its image under a bridge. It keeps what they need, not
+/// the image: that goes on to the next bridge.
 class Bridge {
  public:
+  Bridge() = default;
   Bridge(const Bridge&) = delete;
   Bridge& operator=(const Bridge&) = delete;
   virtual ~Bridge() = default;
 
-  [[nodiscard]] const Problem& image() const { return image_; }
-  [[nodiscard]] Problem& image() { return image_; }
   /// Vectors over the image become vectors over the original: points, duals and rays alike.
   virtual void Back(Vectors& v) const = 0;
   /// Vectors over the original become vectors over the image; NaN where nothing is known.
   virtual void Forward(Vectors& v) const = 0;
+};
 
- protected:
-  explicit Bridge(ProblemData image) : image_(std::move(image)) {}
-
- private:
-  Problem image_;
+/// One application of a bridge.
+struct Bridged {
+  ProblemData image;
+  std::unique_ptr<Bridge> maps;
 };
 
 /// A bridge as the planner sees it: a row of the table.
@@ -56,7 +56,8 @@ struct BridgeKind {
   Features removes;
   Features adds;  // at most
   /// Throws InvalidArgument where this problem cannot be mapped.
-  std::unique_ptr<Bridge> (*apply)(const sy_problem&);
+  Bridged (*apply)(ProblemData);
+  bool may_throw = false;
 };
 
 /// All bridges, each in a file of its own in bridges/.
@@ -72,7 +73,8 @@ struct Planned {
 };
 Planned PlanBridges(Features features, Features abilities);
 
-/// A chain of bridges applied to a problem that stays in place as long as the chain.
+/// A chain of bridges applied to a problem, which they copy once. Its hints stay in place as long
+/// as the chain.
 class BridgeChain {
  public:
   BridgeChain() = default;
@@ -81,7 +83,7 @@ class BridgeChain {
 
   [[nodiscard]] bool empty() const { return bridges_.empty(); }
   /// The last image; only where not empty().
-  [[nodiscard]] const Problem& image() const { return bridges_.back()->image(); }
+  [[nodiscard]] const Problem& image() const { return image_; }
   void Back(Vectors& v) const;
   void Forward(Vectors& v) const;
   /// Hints that the chain could not map, a sentence each.
@@ -91,6 +93,7 @@ class BridgeChain {
   void MapHints(const sy_problem& problem);
 
   std::vector<std::unique_ptr<Bridge>> bridges_;
+  Problem image_;
   std::vector<sy_hint> hints_;
   std::vector<std::string> dropped_;
 };

@@ -13,6 +13,6 @@ BridgeKind SecondOrderToRotated();
 BridgeKind QuadraticObjectiveToCone();
 
 /// The problem without the cones that are off: see switched_off_cones.cpp.
-std::unique_ptr<Bridge> LeaveOutSwitchedOff(const ProblemData& problem);
+Bridged LeaveOutSwitchedOff(ProblemData d);
 
 }  // namespace switchyard

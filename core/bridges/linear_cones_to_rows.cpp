@@ -13,8 +13,8 @@ bool IsLinear(const sy_cone& cone) {
 
 class LinearConesToRowsBridge final : public Bridge {
  public:
-  LinearConesToRowsBridge(ProblemData image, std::vector<std::uint8_t> linear, std::size_t rows)
-      : Bridge(std::move(image)), linear_(std::move(linear)), rows_(rows) {}
+  LinearConesToRowsBridge(std::vector<std::uint8_t> linear, std::size_t rows)
+      : linear_(std::move(linear)), rows_(rows) {}
 
   void Back(Vectors& v) const override {
     if (v.row_dual.empty()) return;
@@ -46,8 +46,7 @@ class LinearConesToRowsBridge final : public Bridge {
   std::size_t rows_;
 };
 
-std::unique_ptr<Bridge> Apply(const sy_problem& problem) {
-  ProblemData d(problem);
+Bridged Apply(ProblemData d) {
   const auto rows = static_cast<std::size_t>(d.num_rows());
   std::vector<std::uint8_t> linear;
   std::vector<sy_cone> cones;
@@ -69,7 +68,7 @@ std::unique_ptr<Bridge> Apply(const sy_problem& problem) {
   d.F = KeepRows(d.F, stays);
   d.g = Keep(d.g, stays);
   d.cones = std::move(cones);
-  return std::make_unique<LinearConesToRowsBridge>(std::move(d), std::move(linear), rows);
+  return {std::move(d), std::make_unique<LinearConesToRowsBridge>(std::move(linear), rows)};
 }
 
 }  // namespace

@@ -19,8 +19,9 @@ namespace {
 
 class QuadraticObjectiveBridge final : public Bridge {
  public:
-  QuadraticObjectiveBridge(ProblemData image, std::size_t vars, std::size_t cone_rows, Csc P)
-      : Bridge(std::move(image)), vars_(vars), cone_rows_(cone_rows), P_(std::move(P)) {}
+  /// `cone`: the rows (t, 0, Sx) over the image's variables.
+  QuadraticObjectiveBridge(std::size_t vars, std::size_t cone_rows, Csc P, Csc cone)
+      : vars_(vars), cone_rows_(cone_rows), P_(std::move(P)), cone_(std::move(cone)) {}
 
   void Back(Vectors& v) const override {
     if (!v.x.empty()) v.x.resize(vars_);
@@ -32,20 +33,21 @@ class QuadraticObjectiveBridge final : public Bridge {
     if (!v.x.empty()) v.x.push_back(0.5 * QuadraticForm(P_.View(), v.x.data()));
     if (!v.x_dual.empty()) v.x_dual.push_back(0);
     if (v.x_dual.empty() && v.row_dual.empty() && v.cone_dual.empty()) return;
-    const ProblemData& d = image().data();
-    v.cone_dual.resize(d.g.size(), std::nan(""));
+    const auto rows = static_cast<std::size_t>(cone_.rows);
+    v.cone_dual.resize(cone_rows_, std::nan(""));
+    v.cone_dual.resize(cone_rows_ + rows, v.x.empty() ? std::nan("") : 0.0);
     if (v.x.empty()) return;
-    std::vector<double> s = d.g;
-    MultiplyAdd(d.F.View(), 1, v.x.data(), s.data());
-    v.cone_dual[cone_rows_] = s[cone_rows_ + 1];
-    v.cone_dual[cone_rows_ + 1] = s[cone_rows_];
-    for (std::size_t i = cone_rows_ + 2; i < s.size(); ++i) v.cone_dual[i] = -s[i];
+    double* dual = v.cone_dual.data() + cone_rows_;
+    MultiplyAdd(cone_.View(), -1, v.x.data(), dual);
+    dual[1] = -dual[0];
+    dual[0] = 1;
   }
 
  private:
   std::size_t vars_;
   std::size_t cone_rows_;
   Csc P_;
+  Csc cone_;
 };
 
 std::int32_t Root(std::vector<std::int32_t>& parent, std::int32_t j) {
@@ -113,8 +115,7 @@ std::int32_t FactorComponent(const Csc& P, const std::vector<std::int32_t>& memb
   return rows;
 }
 
-std::unique_ptr<Bridge> Apply(const sy_problem& problem) {
-  ProblemData d(problem);
+Bridged Apply(ProblemData d) {
   Require((d.flags & SY_PROBLEM_CONVEX) != 0,
           "a nonconvex quadratic objective has no form as a cone");
   const auto vars = static_cast<std::size_t>(d.num_vars);
@@ -133,7 +134,8 @@ std::unique_ptr<Bridge> Apply(const sy_problem& problem) {
     m->cols = d.num_vars;
     m->start.push_back(m->start.back());
   }
-  d.F = StackRows(d.F, S.Seal(rows, d.num_vars));
+  Csc cone = S.Seal(rows, d.num_vars);
+  d.F = StackRows(d.F, cone);
   d.g.resize(cone_rows + static_cast<std::size_t>(rows), 0.0);
   d.g[cone_rows + 1] = 1;
   d.cones.push_back({SY_CONE_ROTATED, rows, 0});
@@ -143,14 +145,15 @@ std::unique_ptr<Bridge> Apply(const sy_problem& problem) {
     d.x_upper.push_back(kInfinity);
   }
   if (!d.integer.empty()) d.integer.push_back(0);
-  return std::make_unique<QuadraticObjectiveBridge>(std::move(d), vars, cone_rows, std::move(P));
+  return {std::move(d), std::make_unique<QuadraticObjectiveBridge>(vars, cone_rows, std::move(P),
+                                                                   std::move(cone))};
 }
 
 }  // namespace
 
 BridgeKind QuadraticObjectiveToCone() {
   return {"quadratic objective to a rotated cone", SY_ACCEPTS_QUADRATIC_OBJECTIVE,
-          ConeFeature(SY_CONE_ROTATED), Apply};
+          ConeFeature(SY_CONE_ROTATED), Apply, true};
 }
 
 }  // namespace switchyard

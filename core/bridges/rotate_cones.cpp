@@ -9,8 +9,7 @@ const double kHalf = std::sqrt(0.5);
 
 class RotateBridge final : public Bridge {
  public:
-  RotateBridge(ProblemData image, std::vector<std::size_t> heads)
-      : Bridge(std::move(image)), heads_(std::move(heads)) {}
+  explicit RotateBridge(std::vector<std::size_t> heads) : heads_(std::move(heads)) {}
 
   void Back(Vectors& v) const override { Rotate(v.cone_dual); }
   void Forward(Vectors& v) const override { Rotate(v.cone_dual); }
@@ -59,8 +58,7 @@ Csc RotateRows(const Csc& F, const std::vector<std::int8_t>& place) {
 
 }  // namespace
 
-std::unique_ptr<Bridge> RotateCones(const sy_problem& problem, sy_cone_kind from, sy_cone_kind to) {
-  ProblemData d(problem);
+Bridged RotateCones(ProblemData d, sy_cone_kind from, sy_cone_kind to) {
   std::vector<std::size_t> heads;
   std::vector<std::int8_t> place(d.g.size(), -1);  // 0, 1: first or second row of its cone
   std::size_t row = 0;
@@ -80,7 +78,7 @@ std::unique_ptr<Bridge> RotateCones(const sy_problem& problem, sy_cone_kind from
     row += static_cast<std::size_t>(cone.dim);
   }
   d.F = RotateRows(d.F, place);
-  return std::make_unique<RotateBridge>(std::move(d), std::move(heads));
+  return {std::move(d), std::make_unique<RotateBridge>(std::move(heads))};
 }
 
 }  // namespace switchyard

@@ -4,14 +4,12 @@
 // s_0 >= |(s_1, s_2)| and back: it is orthogonal and its own inverse, so duals go the same way.
 #pragma once
 
-#include <memory>
-
 #include "core/bridges/bridge.hpp"
 
 namespace switchyard {
 
 /// Every cone of kind `from` becomes one of kind `to`; a second-order cone of one row, s_0 >= 0,
 /// becomes nonnegative.
-std::unique_ptr<Bridge> RotateCones(const sy_problem& problem, sy_cone_kind from, sy_cone_kind to);
+Bridged RotateCones(ProblemData d, sy_cone_kind from, sy_cone_kind to);
 
 }  // namespace switchyard

@@ -6,8 +6,8 @@ namespace switchyard {
 
 BridgeKind RotatedToSecondOrder() {
   return {"rotated to second-order cones", ConeFeature(SY_CONE_ROTATED),
-          ConeFeature(SY_CONE_SECOND_ORDER), [](const sy_problem& problem) {
-            return RotateCones(problem, SY_CONE_ROTATED, SY_CONE_SECOND_ORDER);
+          ConeFeature(SY_CONE_SECOND_ORDER), [](ProblemData d) {
+            return RotateCones(std::move(d), SY_CONE_ROTATED, SY_CONE_SECOND_ORDER);
           }};
 }
 

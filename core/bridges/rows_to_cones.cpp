@@ -19,8 +19,8 @@ struct Sides {
 
 class RowsToConesBridge final : public Bridge {
  public:
-  RowsToConesBridge(ProblemData image, std::vector<Sides> sides, std::size_t added)
-      : Bridge(std::move(image)), sides_(std::move(sides)), added_(added) {}
+  RowsToConesBridge(std::vector<Sides> sides, std::size_t added, std::size_t cone_rows)
+      : sides_(std::move(sides)), added_(added), cone_rows_(cone_rows) {}
 
   void Back(Vectors& v) const override {
     if (v.cone_dual.empty()) return;
@@ -38,8 +38,7 @@ class RowsToConesBridge final : public Bridge {
 
   void Forward(Vectors& v) const override {
     if (v.row_dual.empty() && v.cone_dual.empty()) return;
-    v.cone_dual.resize(static_cast<std::size_t>(image().data().num_cone_rows()) - added_,
-                       std::nan(""));
+    v.cone_dual.resize(cone_rows_, std::nan(""));
     v.cone_dual.insert(v.cone_dual.begin(), added_, std::nan(""));
     for (std::size_t i = 0; i < sides_.size() && !v.row_dual.empty(); ++i) {
       const double y = v.row_dual[i];
@@ -56,6 +55,7 @@ class RowsToConesBridge final : public Bridge {
  private:
   std::vector<Sides> sides_;
   std::size_t added_;
+  std::size_t cone_rows_;  // of the original
 };
 
 struct Placed {
@@ -110,10 +110,10 @@ Csc StackSides(const ProblemData& d, const Placed& placed) {
   return all;
 }
 
-std::unique_ptr<Bridge> Apply(const sy_problem& problem) {
-  ProblemData d(problem);
+Bridged Apply(ProblemData d) {
   Placed placed = PlaceRows(d);
   const auto added = static_cast<std::size_t>(placed.equalities + placed.inequalities);
+  const std::size_t cone_rows = d.g.size();
   d.F = StackSides(d, placed);
   std::vector<double> g(added);
   for (std::size_t i = 0; i < placed.sides.size(); ++i) {
@@ -130,7 +130,8 @@ std::unique_ptr<Bridge> Apply(const sy_problem& problem) {
   d.A = Csc(0, d.num_vars);
   d.row_lower.clear();
   d.row_upper.clear();
-  return std::make_unique<RowsToConesBridge>(std::move(d), std::move(placed.sides), added);
+  return {std::move(d),
+          std::make_unique<RowsToConesBridge>(std::move(placed.sides), added, cone_rows)};
 }
 
 }  // namespace

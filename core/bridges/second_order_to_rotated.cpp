@@ -6,9 +6,8 @@ namespace switchyard {
 
 BridgeKind SecondOrderToRotated() {
   return {"second-order to rotated cones", ConeFeature(SY_CONE_SECOND_ORDER),
-          ConeFeature(SY_CONE_ROTATED) | ConeFeature(SY_CONE_NONNEGATIVE),
-          [](const sy_problem& problem) {
-            return RotateCones(problem, SY_CONE_SECOND_ORDER, SY_CONE_ROTATED);
+          ConeFeature(SY_CONE_ROTATED) | ConeFeature(SY_CONE_NONNEGATIVE), [](ProblemData d) {
+            return RotateCones(std::move(d), SY_CONE_SECOND_ORDER, SY_CONE_ROTATED);
           }};
 }
 

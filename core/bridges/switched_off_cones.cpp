@@ -10,8 +10,7 @@ namespace {
 
 class SwitchedOffBridge final : public Bridge {
  public:
-  SwitchedOffBridge(ProblemData image, std::vector<std::uint8_t> kept)
-      : Bridge(std::move(image)), kept_(std::move(kept)) {}
+  explicit SwitchedOffBridge(std::vector<std::uint8_t> kept) : kept_(std::move(kept)) {}
 
   void Back(Vectors& v) const override {
     std::vector<double> all(kept_.size(), 0.0);
@@ -32,8 +31,7 @@ class SwitchedOffBridge final : public Bridge {
 
 }  // namespace
 
-std::unique_ptr<Bridge> LeaveOutSwitchedOff(const ProblemData& problem) {
-  ProblemData d = problem;
+Bridged LeaveOutSwitchedOff(ProblemData d) {
   std::vector<std::uint8_t> kept;
   for (std::size_t c = 0; c < d.cones.size(); ++c) {
     kept.insert(kept.end(), static_cast<std::size_t>(d.cones[c].dim), d.cone_on[c]);
@@ -41,7 +39,7 @@ std::unique_ptr<Bridge> LeaveOutSwitchedOff(const ProblemData& problem) {
   const std::vector<std::uint8_t> on = d.cone_on;
   problem_detail::KeepCones(on, d);
   d.cone_on.clear();
-  return std::make_unique<SwitchedOffBridge>(std::move(d), std::move(kept));
+  return {std::move(d), std::make_unique<SwitchedOffBridge>(std::move(kept))};
 }
 
 }  // namespace switchyard

@@ -43,6 +43,12 @@ bool IsSinglesAlone(const sy_update& update) {
          update.more == nullptr;
 }
 
+bool IsVectorsAlone(const sy_update& update) {
+  constexpr std::uint64_t kVectors = SY_UPDATES_BOUNDS | SY_UPDATES_VECTORS;
+  return (update.whole & ~kVectors) == 0 && update.num_gone_rows == 0 &&
+         update.num_gone_cones == 0 && update.more == nullptr;
+}
+
 bool IsVariableBoundsAlone(const sy_update& update) {
   return IsSinglesAlone(update) && update.num_rows == 0 && update.num_cones == 0;
 }
@@ -106,6 +112,7 @@ void Facade::Load(const sy_problem& problem, std::uint64_t updates) {
     const Turn turn(context_->turn);
     CheckProblem(problem);
     problem_ = std::make_shared<Problem>(problem);
+    spare_.reset();
     declared_ = updates;
     Reload();
     in_step_ = true;
@@ -147,22 +154,41 @@ void Facade::NeedInStep() const {
                                 " holds is not known: load it again");
 }
 
+// The problem that an update makes: written over the loaded one only where that is not what the
+// backend holds. Where no matrix changes, the one before the loaded one has the same and takes the
+// vectors alone.
+std::shared_ptr<Problem> Facade::Next(const sy_update& update) {
+  std::shared_ptr<Problem> next = std::move(spare_);
+  if (IsSinglesAlone(update) && sent_ != problem_) {
+    next = problem_;
+  } else if (next != nullptr && IsVectorsAlone(update)) {
+    next->Change([&](ProblemData& d) { CopyVectors(problem_->data(), d); });
+  } else {
+    next = std::make_shared<Problem>(*problem_);
+  }
+  next->Apply(update);
+  if (!IsVectorsAlone(update)) {
+    CheckProblem(next->view());
+  } else if (!IsSinglesAlone(update)) {
+    CheckVectors(next->view());
+  }
+  return next;
+}
+
 // A mistake is found before anything changes. What the backend was given stays as it is until it
 // gets the next.
 void Facade::Update(const sy_update& update) {
   Forwarding([&] {
     const Turn turn(context_->turn);
     NeedInStep();
-    const bool in_place = IsSinglesAlone(update) && sent_ != problem_;
-    auto next = in_place ? problem_ : std::make_shared<Problem>(*problem_);
     CheckSingleBounds(update);
-    next->Apply(update);
-    if (!IsSinglesAlone(update)) CheckProblem(next->view());
-    in_step_ = !in_place;
+    std::shared_ptr<Problem> next = Next(update);
+    in_step_ = next != problem_;
     const BridgePlan plan = PlanFor(next->view(), *context_->backend);
     in_step_ = false;
-    problem_ = std::move(next);
+    std::swap(problem_, next);
     if (!PassStraight(update, plan)) SendDifference(plan);
+    if (IsVectorsAlone(update) && next != problem_) spare_ = std::move(next);
     in_step_ = true;
   });
 }
@@ -358,9 +384,13 @@ sy_solver Facade::Table(const FacadeContext& context) {
     return plugin::Guarded(error, [&] {
       const auto& at = *static_cast<const FacadeContext*>(self->context);
       Forwarding([&] {
-        const Problem whole(plugin::Whole(*problem));
-        const BridgeChain chain(whole, PlanFor(whole.view(), *at.backend));
         const sy_solver& backend = at.backend->facts;
+        const BridgePlan plan = PlanFor(plugin::Whole(*problem), *at.backend);
+        const bool may_throw = std::any_of(plan.begin(), plan.end(),
+                                           [](const BridgeKind* kind) { return kind->may_throw; });
+        if (backend.supports == nullptr && !may_throw) return;  // no need of the image
+        const Problem whole(plugin::Whole(*problem));
+        const BridgeChain chain(whole, plan);
         if (backend.supports == nullptr) return;
         const sy_problem& given = chain.empty() ? whole.view() : chain.image().view();
         Call(backend, "supports", backend.supports, at.backend->table, host, &given);

@@ -52,6 +52,7 @@ class Facade {
   template <class C>
   void InBackend(C&& call);
   [[nodiscard]] const sy_solver& facts() const { return context_->backend->facts; }
+  std::shared_ptr<Problem> Next(const sy_update& update);
   void Reload();
   void NeedInStep() const;
   void SendDifference(const BridgePlan& plan);
@@ -63,7 +64,8 @@ class Facade {
   const FacadeContext* context_;
   std::unique_ptr<Instance> instance_;
   std::shared_ptr<Problem> problem_;
-  std::shared_ptr<Problem> sent_;  // what the backend was given, where no bridge stands between
+  std::shared_ptr<Problem> sent_;   // what the backend was given, where no bridge stands between
+  std::shared_ptr<Problem> spare_;  // the one before problem_, where its matrices are the same
   std::unique_ptr<BridgeChain> chain_;
   std::unique_ptr<BridgeChain> held_;  // whose image the backend has, where it is not chain_'s
   BridgePlan plan_;

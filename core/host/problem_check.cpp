@@ -86,6 +86,15 @@ void CheckSingleBounds(const sy_update& update) {
   CheckBounds("row", update.row_lower, update.row_upper, update.num_rows, update.row);
 }
 
+void CheckVectors(const sy_problem& problem) {
+  CheckVector("q", problem.q, problem.num_vars);
+  CheckVector("g", problem.g, problem.num_cone_rows);
+  Require(std::isfinite(problem.offset), "the offset must be a finite number, got ",
+          problem.offset);
+  CheckBounds("x", problem.x_lower, problem.x_upper, problem.num_vars);
+  CheckBounds("row", problem.row_lower, problem.row_upper, problem.num_rows);
+}
+
 void CheckProblem(const sy_problem& problem) {
   Require(problem.num_vars >= 0 && problem.num_rows >= 0 && problem.num_cones >= 0 &&
               problem.num_cone_rows >= 0,
@@ -99,12 +108,7 @@ void CheckProblem(const sy_problem& problem) {
     Require(problem.F != nullptr, "the problem has cone rows, but no matrix F");
     CheckMatrix("F", *problem.F, problem.num_cone_rows, problem.num_vars);
   }
-  CheckVector("q", problem.q, problem.num_vars);
-  CheckVector("g", problem.g, problem.num_cone_rows);
-  Require(std::isfinite(problem.offset), "the offset must be a finite number, got ",
-          problem.offset);
-  CheckBounds("x", problem.x_lower, problem.x_upper, problem.num_vars);
-  CheckBounds("row", problem.row_lower, problem.row_upper, problem.num_rows);
+  CheckVectors(problem);
   CheckCones(problem);
 }
 

@@ -10,6 +10,9 @@ namespace switchyard {
 /// out of range, or cones whose dimensions do not fit. Linear in entries.
 void CheckProblem(const sy_problem& problem);
 
+/// Of its vectors and bounds alone.
+void CheckVectors(const sy_problem& problem);
+
 /// The same of the single bounds that an update brings.
 void CheckSingleBounds(const sy_update& update);
 

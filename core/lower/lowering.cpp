@@ -61,43 +61,48 @@ std::uint64_t Lowering::Refresh(const MathematicalProgram& program) {
   const bool boxes = now.boxes != stamps_.boxes;
   const bool rest = now.structure != stamps_.structure || now.others != stamps_.others;
   if (!linear && !boxes && !rest) return 0;
-  std::uint64_t kinds = 0;
-  if (!rest && RefreshVectors(program, now)) {
-    kinds = ProblemDifference(previous_.data(), problem_.data(), kVectorsAlone);
-  } else {
-    kinds = RefreshAll(program);
-  }
+  std::optional<std::uint64_t> kinds;
+  if (!rest) kinds = RefreshVectors(program, now);
+  if (!kinds.has_value()) kinds = RefreshAll(program);
   stamps_ = now;
-  return kinds;
+  return *kinds;
 }
 
-// Costs and bounds of variables alone: nothing is sorted, no matrix is written. False: a bound
+// Costs and bounds of variables alone: nothing is sorted, no matrix is written. None: a bound
 // appeared where there was none, so the section does.
-bool Lowering::RefreshVectors(const MathematicalProgram& program, const Stamps& now) {
-  ProblemData next = problem_.data();
+std::optional<std::uint64_t> Lowering::RefreshVectors(const MathematicalProgram& program,
+                                                      const Stamps& now) {
+  std::uint64_t kinds = 0;
+  const auto replace = [&kinds](std::vector<double>& old, const std::vector<double>& fresh,
+                                std::uint64_t kind) {
+    if (!std::equal(fresh.begin(), fresh.end(), old.begin())) kinds |= kind;
+    std::copy(fresh.begin(), fresh.end(), old.begin());
+  };
   if (now.boxes != stamps_.boxes) {
-    Bounds bounds = BoundsOf(program);
-    if (next.x_lower.empty()) return false;
-    std::copy(bounds.lower.begin(), bounds.lower.end(), next.x_lower.begin());
-    std::copy(bounds.upper.begin(), bounds.upper.end(), next.x_upper.begin());
+    if (problem_.data().x_lower.empty()) return std::nullopt;
+    const Bounds bounds = BoundsOf(program);
     crossed_ = bounds.crossed;
+    problem_.Change([&](ProblemData& d) {
+      replace(d.x_lower, bounds.lower, SY_UPDATES_BOUNDS);
+      replace(d.x_upper, bounds.upper, SY_UPDATES_BOUNDS);
+    });
   }
   if (now.linear_costs != stamps_.linear_costs) {
     const Linear linear = LinearOf(program);
-    std::copy(linear.q.begin(), linear.q.end(), next.q.begin());
-    next.offset = linear.offset;
+    if (linear.offset != problem_.data().offset) kinds |= SY_UPDATES_VECTORS;
+    problem_.Change([&](ProblemData& d) {
+      replace(d.q, linear.q, SY_UPDATES_VECTORS);
+      d.offset = linear.offset;
+    });
   }
-  previous_ = std::move(problem_);
-  problem_ = Problem(std::move(next));
-  return true;
+  return kinds;
 }
 
 std::uint64_t Lowering::RefreshAll(const MathematicalProgram& program) {
   builder_.Rewrite();
   Write(program);
   ProblemData fresh = builder_.Finish();
-  previous_ = std::move(problem_);
-  const ProblemData& before = previous_.data();
+  const ProblemData& before = problem_.data();
   const bool same_sizes = fresh.num_vars == before.num_vars &&
                           fresh.num_rows() == before.num_rows() &&
                           fresh.num_cone_rows() == before.num_cone_rows();

@@ -11,7 +11,8 @@
 
 namespace switchyard {
 
-/// A program lowered to a problem. It knows no backend.
+/// A program lowered to a problem. It knows no backend; who loads the problem copies it, since a
+/// refresh writes into it.
 ///
 /// The problem's first variables are the program's, in order; epigraph variables of norm costs
 /// follow. Rows are those of the affine constraints in the order in which they were added, then the
@@ -70,7 +71,8 @@ class Lowering {
   static Linear LinearOf(const MathematicalProgram& program);
   static Bounds BoundsOf(const MathematicalProgram& program);
 
-  bool RefreshVectors(const MathematicalProgram& program, const Stamps& now);
+  std::optional<std::uint64_t> RefreshVectors(const MathematicalProgram& program,
+                                              const Stamps& now);
   std::uint64_t RefreshAll(const MathematicalProgram& program);
   void Write(const MathematicalProgram& program);
   void WriteVariables(const MathematicalProgram& program);
@@ -82,7 +84,6 @@ class Lowering {
 
   ProblemBuilder builder_;
   Problem problem_;
-  Problem previous_;  // before the last refresh: a backend may refer to it until its update
   Stamps stamps_;
   std::vector<std::int32_t> affine_row_;
   std::vector<std::int32_t> cone_row_;

@@ -18,6 +18,7 @@ bool AllInfinite(const std::vector<double>& lower, const std::vector<double>& up
 
 const Csc& TripletMatrix::Seal(std::int32_t rows, std::int32_t cols) {
   if (sealed_) return matrix_;
+  if (InOrder()) return TakeAsWritten(rows, cols);
   // A stable counting sort by column; a column is sorted by row only where it is not yet.
   std::vector<std::int32_t> start(At(cols) + 1, 0);
   for (const std::int32_t j : col_) ++start[At(j) + 1];
@@ -48,6 +49,28 @@ const Csc& TripletMatrix::Seal(std::int32_t rows, std::int32_t cols) {
     matrix_.start[At(j) + 1] = static_cast<std::int32_t>(matrix_.row.size());
   }
   std::vector<double>().swap(value_);
+  next_ = slot_.size();
+  sealed_ = true;
+  return matrix_;
+}
+
+bool TripletMatrix::InOrder() const {
+  for (std::size_t k = 1; k < col_.size(); ++k) {
+    const bool follows = col_[k] > col_[k - 1] || (col_[k] == col_[k - 1] && row_[k] > row_[k - 1]);
+    if (!follows) return false;
+  }
+  return true;
+}
+
+// Nothing to sort: each triplet is an entry, in its place.
+const Csc& TripletMatrix::TakeAsWritten(std::int32_t rows, std::int32_t cols) {
+  matrix_ = Csc(rows, cols);
+  for (const std::int32_t j : col_) ++matrix_.start[At(j) + 1];
+  std::partial_sum(matrix_.start.begin(), matrix_.start.end(), matrix_.start.begin());
+  matrix_.row = row_;
+  matrix_.value = std::exchange(value_, {});
+  slot_.resize(row_.size());
+  std::iota(slot_.begin(), slot_.end(), 0);
   next_ = slot_.size();
   sealed_ = true;
   return matrix_;

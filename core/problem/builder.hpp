@@ -33,6 +33,10 @@ class TripletMatrix {
   [[nodiscard]] const Csc& matrix() const { return matrix_; }
 
  private:
+  /// Were the triplets written column by column, rows ascending, none twice?
+  [[nodiscard]] bool InOrder() const;
+  const Csc& TakeAsWritten(std::int32_t rows, std::int32_t cols);
+
   std::vector<std::int32_t> row_;
   std::vector<std::int32_t> col_;
   std::vector<double> value_;       // of the first writing

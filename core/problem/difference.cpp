@@ -17,15 +17,12 @@ bool SameCones(const std::vector<sy_cone>& a, const std::vector<sy_cone>& b) {
 
 }  // namespace
 
-std::uint64_t ProblemDifference(const ProblemData& before, const ProblemData& after,
-                                Differing differing) {
-  const bool matrices = differing == kAnything;
-  const bool structure =
-      matrices &&
-      (before.num_vars != after.num_vars || Different(before.P, after.P) ||
-       Different(before.A, after.A) || Different(before.F, after.F) ||
-       before.integer != after.integer || before.x_lower.empty() != after.x_lower.empty() ||
-       !SameCones(before.cones, after.cones));
+std::uint64_t ProblemDifference(const ProblemData& before, const ProblemData& after) {
+  const bool structure = before.num_vars != after.num_vars || Different(before.P, after.P) ||
+                         Different(before.A, after.A) || Different(before.F, after.F) ||
+                         before.integer != after.integer ||
+                         before.x_lower.empty() != after.x_lower.empty() ||
+                         !SameCones(before.cones, after.cones);
   if (structure) return kStructureChanged;
   std::uint64_t kinds = 0;
   if (before.x_lower != after.x_lower || before.x_upper != after.x_upper ||
@@ -35,8 +32,8 @@ std::uint64_t ProblemDifference(const ProblemData& before, const ProblemData& af
   if (before.q != after.q || before.offset != after.offset || before.g != after.g) {
     kinds |= SY_UPDATES_VECTORS;
   }
-  if (matrices && (before.P.value != after.P.value || before.A.value != after.A.value ||
-                   before.F.value != after.F.value || before.flags != after.flags)) {
+  if (before.P.value != after.P.value || before.A.value != after.A.value ||
+      before.F.value != after.F.value || before.flags != after.flags) {
     kinds |= SY_UPDATES_VALUES;
   }
   return kinds;

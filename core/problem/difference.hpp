@@ -10,11 +10,7 @@ namespace switchyard {
 /// Rows, cones, patterns, integrality or sections differ: no update, a new load.
 inline constexpr std::uint64_t kStructureChanged = std::uint64_t{1} << 63;
 
-/// What can differ: all, or nothing but vectors, so that matrices need no look.
-enum Differing { kAnything, kVectorsAlone };
-
 /// SY_UPDATES_BOUNDS, _VECTORS and _VALUES as they differ, or kStructureChanged.
-std::uint64_t ProblemDifference(const ProblemData& before, const ProblemData& after,
-                                Differing differing = kAnything);
+std::uint64_t ProblemDifference(const ProblemData& before, const ProblemData& after);
 
 }  // namespace switchyard

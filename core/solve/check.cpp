@@ -164,19 +164,26 @@ DualCheck CheckDuals(const sy_problem& problem, const Vectors& v, double cutoff)
   const auto data = [](const std::vector<double>& values) {
     return values.empty() ? nullptr : values.data();
   };
+  const std::vector<double> curvature = Curvature(problem);
   const auto bound_on = [&](const double* lower, const double* upper) {
-    return SafeDualBound(problem, data(v.x), data(v.row_dual), data(v.cone_dual), lower, upper);
+    return SafeDualBound(problem, data(v.x), data(v.row_dual), data(v.cone_dual), lower, upper,
+                         data(curvature));
   };
+  SafeBound proven = bound_on(nullptr, nullptr);
+  if (std::isfinite(cutoff) && cutoff - proven.value <= 0.1 * kSupported * (1 + std::abs(cutoff))) {
+    return {std::min(proven.value, cutoff), proven.value, 0, -1};
+  }
   const PlainDual plain = EvaluateDuals(problem, v);
   DualCheck check{-kInfinity, plain.objective, plain.open_worth, -1};
-  SafeBound proven{-kInfinity, 0, -1, 0};
-  if (!plain.open) proven = bound_on(nullptr, nullptr);
   for (const int passes : {kFewPasses, kManyPasses}) {
-    if (std::isfinite(proven.value)) break;
+    // Closed by a faint curvature, a bound may be a poor one: then boxes are tried too.
+    const bool by_curvature = plain.open && passes == kFewPasses;
+    if (std::isfinite(proven.value) && !by_curvature) break;
     // A cutoff just above the objective: the boxes then hold an optimal point.
     const Boxes boxes = ProvenBoxes(problem, cutoff + 1e-6 * (1 + std::abs(cutoff)), passes);
-    if (boxes.infeasible) return check;  // by less than the point's own violation
-    proven = bound_on(boxes.lower.data(), boxes.upper.data());
+    if (boxes.infeasible) break;  // by less than the point's own violation
+    const SafeBound boxed = bound_on(boxes.lower.data(), boxes.upper.data());
+    if (!(boxed.value <= proven.value) || !std::isfinite(proven.value)) proven = boxed;
   }
   check.bound = std::min(proven.value, cutoff);
   check.open_column = proven.open_column;

@@ -69,15 +69,14 @@ inline std::vector<Parabola> Underestimate(const sy_problem& problem) {
 
 class Propagation {
  public:
-  explicit Propagation(const sy_problem& problem)
-      : problem_(problem),
-        a_(problem.A != nullptr ? Transpose(*problem.A) : Csc(problem.num_vars, 0)),
-        f_(problem.F != nullptr ? Transpose(*problem.F) : Csc(problem.num_vars, 0)),
-        box_(problem) {}
+  explicit Propagation(const sy_problem& problem) : problem_(problem), box_(problem) {}
 
   Boxes Run(double cutoff, int passes) {
     const std::vector<Parabola> below =
         cutoff < kInfinity ? Underestimate(problem_) : std::vector<Parabola>();
+    PropagateCutoff(below, cutoff);
+    if (passes > 0 && problem_.A != nullptr) a_ = Transpose(*problem_.A);
+    if (passes > 0 && problem_.F != nullptr) f_ = Transpose(*problem_.F);
     for (int pass = 0; pass < passes && !box_.infeasible(); ++pass) {
       PropagateRows();
       PropagateCones();
@@ -227,10 +226,24 @@ class Propagation {
 
 }  // namespace boxes_detail
 
+/// d with P - diag(d) >= 0, d >= 0, as far as diagonal dominance shows it: what SafeDualBound takes
+/// as curvature of a convex problem; no entries where there is none.
+inline std::vector<double> Curvature(const sy_problem& problem) {
+  std::vector<double> curvature;
+  if (problem.P == nullptr) return curvature;
+  bool any = false;
+  for (const boxes_detail::Parabola& p : boxes_detail::Underestimate(problem)) {
+    curvature.push_back(std::max(0.0, p.d));
+    any = any || p.d > 0;
+  }
+  if (!any) curvature.clear();
+  return curvature;
+}
+
 /// Boxes that hold every feasible point with an objective of at most `cutoff`, in time linear in
-/// the nonzeros for each pass; at most `passes`, fewer where one narrows nothing by a thousandth.
-/// Infinite where no finite end is proven. All rounding is outward (underflow aside); an integer's
-/// ends are integers.
+/// the nonzeros for each pass: first by the cutoff alone, then at most `passes` over rows, cones
+/// and cutoff, fewer where one narrows nothing by a thousandth. Infinite where no finite end is
+/// proven. All rounding is outward (underflow aside); an integer's ends are integers.
 ///
 /// A bound found with boxes that used a cutoff holds where the optimum is below it: the bound on
 /// the optimum is min(cutoff, bound). Infeasible then means: no point is at or below the cutoff.

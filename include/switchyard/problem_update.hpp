@@ -26,15 +26,16 @@ inline void TakeWhole(const sy_update& update, ProblemData& d) {
            given.num_cone_rows == d.num_cone_rows(),
        "the problem's dimensions differ from the loaded one's");
   if ((update.whole & SY_UPDATES_BOUNDS) != 0) {
-    const ProblemData fresh = [&] {
-      sy_problem bounds = given;
-      bounds.P = bounds.A = bounds.F = nullptr;
-      return ProblemData(bounds);
-    }();
-    d.x_lower = fresh.x_lower;
-    d.x_upper = fresh.x_upper;
-    d.row_lower = fresh.row_lower;
-    d.row_upper = fresh.row_upper;
+    const auto take = [](const double* from, std::int32_t count, double none,
+                         std::vector<double>& to) {
+      to.assign(static_cast<std::size_t>(count), none);
+      if (from != nullptr) std::copy(from, from + count, to.begin());
+    };
+    const bool boxed = given.x_lower != nullptr || given.x_upper != nullptr;
+    take(given.x_lower, boxed ? d.num_vars : 0, -kInfinity, d.x_lower);
+    take(given.x_upper, boxed ? d.num_vars : 0, kInfinity, d.x_upper);
+    take(given.row_lower, d.num_rows(), -kInfinity, d.row_lower);
+    take(given.row_upper, d.num_rows(), kInfinity, d.row_upper);
   }
   if ((update.whole & SY_UPDATES_VECTORS) != 0) {
     if (given.q != nullptr) {
@@ -174,6 +175,21 @@ inline void AppendRows(const sy_more& more, ProblemData& d) {
 
 }  // namespace problem_detail
 
+/// All that is no matrix, integrality or list of cones: the same-sized vectors of `from`.
+inline void CopyVectors(const ProblemData& from, ProblemData& to) {
+  to.flags = from.flags;
+  to.q = from.q;
+  to.offset = from.offset;
+  to.x_lower = from.x_lower;
+  to.x_upper = from.x_upper;
+  to.row_lower = from.row_lower;
+  to.row_upper = from.row_upper;
+  to.g = from.g;
+  to.cone_on = from.cone_on;
+  to.nlp = from.nlp;
+  to.hints = from.hints;
+}
+
 /// Applies an update in the order of its fields. Throws std::invalid_argument where an index or a
 /// dimension does not fit; `d` is then in between.
 inline void ApplyUpdate(const sy_update& update, ProblemData& d) {
@@ -192,12 +208,10 @@ inline void ApplyUpdate(const sy_update& update, ProblemData& d) {
 
 inline void Problem::Apply(const sy_update& update) {
   using namespace problem_detail;
-  const bool singles_alone = update.whole == 0 && update.problem == nullptr &&
-                             update.num_gone_rows == 0 && update.num_gone_cones == 0 &&
-                             update.more == nullptr;
-  if (singles_alone) {  // what branch and bound does at every node: no copy
-    CheckSingles(update, data_);
-    SetSingles(update, data_);
+  const bool patterns_stay = update.num_gone_rows == 0 && update.num_gone_cones == 0 &&
+                             update.more == nullptr && (update.whole & SY_UPDATES_VALUES) == 0;
+  if (patterns_stay) {  // every mistake is found before anything is written: no copy
+    ApplyUpdate(update, data_);
   } else {
     ProblemData next = data_;
     ApplyUpdate(update, next);

@@ -31,6 +31,23 @@ struct SafeBound {
 
 namespace safe_bound_detail {
 
+/// What fl(a b) = p lost, exactly, where nothing underflows: by a fused multiply-add where the
+/// target has one, else by Veltkamp's splitting and Dekker's product (Numerische Mathematik 18,
+/// 1971).
+inline double ProductError(double a, double b, double p) {
+#if defined(__FP_FAST_FMA) || defined(__FMA__) || defined(__ARM_FEATURE_FMA)
+  return std::fma(a, b, -p);
+#else
+  constexpr double kLargest = 0x1p990;  // the splitting overflows above
+  if (!(std::abs(a) < kLargest && std::abs(b) < kLargest)) return std::fma(a, b, -p);
+  constexpr double kSplitter = 0x1p27 + 1;
+  const double ca = kSplitter * a, cb = kSplitter * b;
+  const double a1 = ca - (ca - a), b1 = cb - (cb - b);
+  const double a2 = a - a1, b2 = b - b1;
+  return ((a1 * b1 - p) + a1 * b2 + a2 * b1) + a2 * b2;
+#endif
+}
+
 /// A sum that knows how wrong it may be. The true sum is within `lost` of high + low; both take
 /// each addend by TwoSum, s = fl(a + b) and a + b - s exactly (Knuth, The Art of Computer
 /// Programming 2, 4.2.2), so lost is 0 where low never rounded.
@@ -40,11 +57,11 @@ class ErrorFreeSum {
     largest_ = std::max(largest_, std::abs(v));
     AddLow(TwoSum(high_, v));
   }
-  /// a b = p + e exactly, e by a fused multiply-add, where neither underflows.
+  /// a b = p + e exactly, where neither underflows.
   void AddProduct(double a, double b) {
     const double p = Product(a, b);
     Add(p);
-    AddLow(std::fma(a, b, -p));
+    AddLow(ProductError(a, b, p));
     if (std::abs(p) < kUnderflow && a != 0 && b != 0) lost_ += DBL_MIN;
   }
 
@@ -145,34 +162,36 @@ inline std::vector<double> UsableConeDual(const sy_problem& p, const double* giv
   return dual;
 }
 
-/// q + P x to the reduced costs, offset - 1/2 x'Px to the terms.
-inline void AddObjective(const sy_problem& p, const double* x, std::vector<ErrorFreeSum>& rho,
-                         Terms& terms) {
+/// Offset - 1/2 x'Px to the terms. P x, or nothing where P is diagonal or absent: then each column
+/// has its own.
+inline std::vector<ErrorFreeSum> AddObjective(const sy_problem& p, const double* x, Terms& terms) {
   terms.Add(p.offset);
-  for (std::int32_t j = 0; p.q != nullptr && j < p.num_vars; ++j) {
-    rho[static_cast<std::size_t>(j)].Add(p.q[j]);
+  bool diagonal = true;
+  for (std::int32_t j = 0; p.P != nullptr && j < p.num_vars && diagonal; ++j) {
+    const std::int32_t first = p.P->start[j];
+    const std::int32_t count = p.P->start[j + 1] - first;
+    diagonal = count == 0 || (count == 1 && p.P->row[first] == j);
   }
+  std::vector<ErrorFreeSum> product(diagonal ? 0 : static_cast<std::size_t>(p.num_vars));
   for (std::int32_t j = 0; p.P != nullptr && j < p.num_vars; ++j) {
     for (std::int32_t k = p.P->start[j]; k < p.P->start[j + 1]; ++k) {
       const std::int32_t i = p.P->row[k];
       const double value = p.P->value[k];
-      if (x[j] != 0) rho[static_cast<std::size_t>(i)].AddProduct(value, x[j]);
-      if (i != j && x[i] != 0) rho[static_cast<std::size_t>(j)].AddProduct(value, x[i]);
       terms.Add((i == j ? -0.5 : -1.0) * value * x[i] * x[j]);
+      if (diagonal) continue;
+      if (x[j] != 0) product[static_cast<std::size_t>(i)].AddProduct(value, x[j]);
+      if (i != j && x[i] != 0) product[static_cast<std::size_t>(j)].AddProduct(value, x[i]);
     }
   }
+  return product;
 }
 
-/// rho -= A'dual.
-inline void SubtractTransposed(const sy_csc* a, const std::vector<double>& dual,
-                               std::vector<ErrorFreeSum>& rho) {
-  for (std::int32_t j = 0; a != nullptr && j < a->cols; ++j) {
-    ErrorFreeSum sum = rho[static_cast<std::size_t>(j)];
-    for (std::int32_t k = a->start[j]; k < a->start[j + 1]; ++k) {
-      const double d = dual[static_cast<std::size_t>(a->row[k])];
-      if (d != 0) sum.AddProduct(-a->value[k], d);
-    }
-    rho[static_cast<std::size_t>(j)] = sum;
+/// sum += sign M_j'v, column j of M.
+inline void AddColumn(const sy_csc* m, std::int32_t j, double sign, const double* v,
+                      ErrorFreeSum& sum) {
+  for (std::int32_t k = m->start[j]; k < m->start[j + 1]; ++k) {
+    const double d = v[m->row[k]];
+    if (d != 0) sum.AddProduct(sign * m->value[k], d);
   }
 }
 
@@ -204,34 +223,46 @@ inline double LeastProduct(const Interval& rho, double lower, double upper) {
 /// less the rounding of N terms, 4 N 2^-53 sum |terms|. For 1/2 y'Py >= x'Py - 1/2 x'Px at every y
 /// as P >= 0, which is the caller's to know. rho_j is an interval that holds the true one, a point
 /// where nothing rounded, so columns that cancel exactly (epigraph variables) may be free. Where
-/// rho_j has the wrong sign against an infinite side, nothing is proven: see SafeBound.
+/// rho_j has the wrong sign against an infinite side, nothing is proven: see SafeBound. Unless
+/// `curvature` has a d_j > 0, P - diag(d) >= 0 (see Curvature): then 1/2 d_j (y_j - x_j)^2 is left
+/// of 1/2 y'Py, so that the column's term is at least rho_j x_j - rho_j^2 / (2 d_j).
 ///
 /// A pointer may be NULL: zeros for x and duals, the problem's bounds for the boxes. Boxes must
 /// hold every feasible point, or an optimal one; where they come from a cutoff, min(cutoff, value)
 /// is the bound.
 inline SafeBound SafeDualBound(const sy_problem& problem, const double* x, const double* row_dual,
                                const double* cone_dual, const double* box_lower,
-                               const double* box_upper) {
+                               const double* box_upper, const double* curvature = nullptr) {
   using namespace safe_bound_detail;
   if (problem.nlp != nullptr) return {-kInfinity, -kInfinity, -1, 0};
   Terms terms;
-  std::vector<ErrorFreeSum> rho(static_cast<std::size_t>(problem.num_vars));
   const std::vector<double> point = FiniteOrZero(x, problem.num_vars);
-  AddObjective(problem, point.data(), rho, terms);
-  SubtractTransposed(problem.A, UsableRowDual(problem, row_dual, terms), rho);
-  SubtractTransposed(problem.F, UsableConeDual(problem, cone_dual, terms), rho);
+  const std::vector<ErrorFreeSum> curved = AddObjective(problem, point.data(), terms);
+  const std::vector<double> y = UsableRowDual(problem, row_dual, terms);
+  const std::vector<double> z = UsableConeDual(problem, cone_dual, terms);
 
   const double* lower = box_lower != nullptr ? box_lower : problem.x_lower;
   const double* upper = box_upper != nullptr ? box_upper : problem.x_upper;
   SafeBound bound{0, 0, -1, 0};
   for (std::int32_t j = 0; j < problem.num_vars; ++j) {
-    const ErrorFreeSum& sum = rho[static_cast<std::size_t>(j)];
-    const Interval interval = sum.Enclosure();
+    const auto at = static_cast<std::size_t>(j);
+    ErrorFreeSum sum = curved.empty() ? ErrorFreeSum() : curved[at];
+    if (problem.q != nullptr) sum.Add(problem.q[j]);
+    if (problem.P != nullptr && curved.empty()) AddColumn(problem.P, j, 1, point.data(), sum);
+    if (problem.A != nullptr) AddColumn(problem.A, j, -1, y.data(), sum);
+    if (problem.F != nullptr) AddColumn(problem.F, j, -1, z.data(), sum);
+    const Interval rho = sum.Enclosure();
     const double l = lower != nullptr ? lower[j] : -kInfinity;
     const double u = upper != nullptr ? upper[j] : kInfinity;
-    const double open = OpenSize(interval, l, u);
+    const double open = OpenSize(rho, l, u);
     if (open == 0) {
-      terms.Add(LeastProduct(interval, l, u));
+      terms.Add(LeastProduct(rho, l, u));
+      continue;
+    }
+    if (curvature != nullptr && curvature[j] > 0 && std::isfinite(open)) {
+      const double largest = std::max(std::abs(rho.lower), std::abs(rho.upper));
+      terms.Add(std::min(rho.lower * point[at], rho.upper * point[at]));
+      terms.Add(-largest * largest / (2 * curvature[j]));
       continue;
     }
     const double size = 1 + (problem.q != nullptr ? std::abs(problem.q[j]) : 0);

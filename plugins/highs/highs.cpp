@@ -153,8 +153,8 @@ void Solver::Run(Watch& watch, sy_result& result) {
   if (failed && highs_->getHessianNumNz() > 0 &&
       highs_->getModelStatus() == HighsModelStatus::kSolveError) {
     throw Failure(SY_E_UNSUPPORTED,
-                  "HiGHS could not solve this quadratic objective: it takes "
-                  "convex ones alone");
+                  "HiGHS ended in its solve error on this quadratic objective, as it does where it "
+                  "finds one not convex");
   }
   Report(watch, result);
 }

@@ -47,27 +47,25 @@ ProblemData OneRow(double lower, double upper) {
   return d;
 }
 
-std::unique_ptr<Bridge> Apply(const BridgeKind& kind, const ProblemData& d) {
-  return kind.apply(Problem(d).view());
-}
+Bridged Apply(const BridgeKind& kind, const ProblemData& d) { return kind.apply(d); }
 
 TEST(BoundsToRows, MakesARowForEachVariableWithAFiniteSide) {
   ProblemData d = OneRow(1, 2);
   d.x_lower = {-kInfinity, 0};
   d.x_upper = {kInfinity, kInfinity};
   const auto bridge = Apply(BoundsToRows(), d);
-  const ProblemData& image = bridge->image().data();
+  const ProblemData& image = bridge.image;
   EXPECT_EQ(image.row_lower, (Vector{1, 0}));
   EXPECT_EQ(image.row_upper, (Vector{2, kInfinity}));
   EXPECT_EQ(Product(image.A, {3, 5}), (Vector{8, 5}));
-  EXPECT_EQ(bridge->image().view().x_lower, nullptr);
+  EXPECT_EQ(Problem(bridge.image).view().x_lower, nullptr);
 }
 
 TEST(RowsToCones, PutsEqualitiesInAZeroConeAndSidesInANonnegativeOne) {
   const auto cones_of = [](double lower, double upper) {
     std::string text;
     const auto bridge = Apply(RowsToCones(), OneRow(lower, upper));
-    for (const sy_cone& cone : bridge->image().data().cones) {
+    for (const sy_cone& cone : bridge.image.cones) {
       text += FactsOf(cone.kind).name + std::string(" ") + std::to_string(cone.dim) + ";";
     }
     return text;
@@ -82,15 +80,15 @@ TEST(RowsToCones, GivesADualOfARowToTheSideItsSignNames) {
   const auto bridge = Apply(RowsToCones(), OneRow(1, 2));
   Vectors v;
   v.row_dual = {3};
-  bridge->Forward(v);
+  bridge.maps->Forward(v);
   EXPECT_EQ(v.cone_dual, (Vector{3, 0}));
   v = {};
   v.row_dual = {-3};
-  bridge->Forward(v);
+  bridge.maps->Forward(v);
   EXPECT_EQ(v.cone_dual, (Vector{0, 3}));
   v = {};
   v.row_dual = {std::nan("")};
-  bridge->Forward(v);
+  bridge.maps->Forward(v);
   EXPECT_TRUE(std::isnan(v.cone_dual[0]) && std::isnan(v.cone_dual[1]));
 }
 
@@ -102,7 +100,7 @@ TEST(RotateCones, ASecondOrderConeOfOneRowIsNonnegative) {
   d.g = {3};
   d.cones = {{SY_CONE_SECOND_ORDER, 1, 0}};
   const auto bridge = Apply(SecondOrderToRotated(), d);
-  const ProblemData& image = bridge->image().data();
+  const ProblemData& image = bridge.image;
   ASSERT_EQ(image.num_cones(), 1);
   EXPECT_EQ(image.cones[0].kind, SY_CONE_NONNEGATIVE);
   EXPECT_EQ(Product(image.F, {0, 1}), (Vector{2}));
@@ -113,13 +111,13 @@ TEST(RotateCones, ThereAndBackIsTheSameProblem) {
   Random random(6);
   const KnownAnswer known = KnownOptimum({.cones = {{SY_CONE_ROTATED, 4, 0}}}, random);
   const auto there = Apply(RotatedToSecondOrder(), known.problem);
-  const auto back = SecondOrderToRotated().apply(there->image().view());
-  EXPECT_EQ(back->image().data().cones[0].kind, SY_CONE_ROTATED);
+  const auto back = SecondOrderToRotated().apply(there.image);
+  EXPECT_EQ(back.image.cones[0].kind, SY_CONE_ROTATED);
   const Vector expected = Product(known.problem.F, known.at.x);
-  const Vector s = Product(back->image().data().F, known.at.x);
+  const Vector s = Product(back.image.F, known.at.x);
   for (std::size_t i = 0; i < s.size(); ++i) {
     EXPECT_NEAR(s[i], expected[i], 1e-12);
-    EXPECT_NEAR(back->image().data().g[i], known.problem.g[i], 1e-12);
+    EXPECT_NEAR(back.image.g[i], known.problem.g[i], 1e-12);
   }
 }
 
@@ -128,7 +126,7 @@ TEST(QuadraticObjectiveToCone, GivesEachComponentAFactorOfItsRank) {
   const ProblemData d = Quadratic(
       {{1, 0, 2, 0, 0}, {0, 2, 0, 1, 0}, {0, 0, 4, 0, 0}, {0, 0, 0, 2, 0}, {0, 0, 0, 0, 0}});
   const auto bridge = Apply(QuadraticObjectiveToCone(), d);
-  const ProblemData& image = bridge->image().data();
+  const ProblemData& image = bridge.image;
   ASSERT_EQ(image.cones.size(), 1u);
   EXPECT_EQ(image.cones[0].kind, SY_CONE_ROTATED);
   EXPECT_EQ(image.cones[0].dim, 2 + 3);
@@ -150,7 +148,7 @@ TEST(QuadraticObjectiveToCone, KnowsTheConesDualOnlyWhereItKnowsX) {
   v.x = {1, 0.5};
   v.x_dual = {0, 0};
   v.cone_dual = {};
-  bridge->Forward(v);
+  bridge.maps->Forward(v);
   EXPECT_EQ(v.x, (Vector{1, 0.5, 1}));
   EXPECT_EQ(v.x_dual, (Vector{0, 0, 0}));
 }
@@ -196,10 +194,10 @@ TEST(LeaveOutSwitchedOff, LeavesOutTheConesThatAreOffAndGivesThemADualOf0) {
     d.q = Combined(d, known.at);
     const auto bridge = LeaveOutSwitchedOff(d);
     Vectors v = known.at;
-    bridge->Forward(v);
-    EXPECT_LT(OptimumError(bridge->image().data(), v), 1e-9);
-    EXPECT_FALSE(AnyOff(bridge->image().data()));
-    bridge->Back(v);
+    bridge.maps->Forward(v);
+    EXPECT_LT(OptimumError(bridge.image, v), 1e-9);
+    EXPECT_FALSE(AnyOff(bridge.image));
+    bridge.maps->Back(v);
     EXPECT_EQ(v.cone_dual, known.at.cone_dual);
   }
 }

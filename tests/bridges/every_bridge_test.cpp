@@ -39,9 +39,7 @@ void NaNToZero(Vectors& v) {
 class EveryBridge : public ::testing::TestWithParam<std::size_t> {
  protected:
   [[nodiscard]] const BridgeKind& kind() const { return BridgeKinds()[GetParam()]; }
-  [[nodiscard]] std::unique_ptr<Bridge> Apply(const ProblemData& d) const {
-    return kind().apply(Problem(d).view());
-  }
+  [[nodiscard]] Bridged Apply(const ProblemData& d) const { return kind().apply(d); }
 };
 
 TEST_P(EveryBridge, RemovesWhatItSaysAndAddsNothingElse) {
@@ -49,8 +47,8 @@ TEST_P(EveryBridge, RemovesWhatItSaysAndAddsNothingElse) {
   const KnownAnswer known = KnownOptimum(Everything(), random);
   const Problem problem(known.problem);
   const Features before = FeaturesOf(problem.view());
-  const auto bridge = kind().apply(problem.view());
-  const Features after = FeaturesOf(bridge->image().view());
+  const auto bridge = kind().apply(problem.data());
+  const Features after = FeaturesOf(Problem(bridge.image).view());
   EXPECT_EQ(after & kind().removes, Features{0});
   EXPECT_EQ(after & ~(before | kind().adds), Features{0});
 }
@@ -58,9 +56,7 @@ TEST_P(EveryBridge, RemovesWhatItSaysAndAddsNothingElse) {
 TEST_P(EveryBridge, IsAPureMap) {
   Random random(2);
   const KnownAnswer known = KnownOptimum(Everything(), random);
-  EXPECT_EQ(
-      ProblemDifference(Apply(known.problem)->image().data(), Apply(known.problem)->image().data()),
-      0u);
+  EXPECT_EQ(ProblemDifference(Apply(known.problem).image, Apply(known.problem).image), 0u);
 }
 
 TEST_P(EveryBridge, TakesAnOptimumToAnOptimumOfTheSameObjective) {
@@ -70,9 +66,9 @@ TEST_P(EveryBridge, TakesAnOptimumToAnOptimumOfTheSameObjective) {
     ASSERT_LT(OptimumError(known.problem, known.at), kTight);
     const auto bridge = Apply(known.problem);
     Vectors v = known.at;
-    bridge->Forward(v);
-    EXPECT_LT(OptimumError(bridge->image().data(), v), kTight) << seed;
-    EXPECT_NEAR(Objective(bridge->image().view(), v.x.data()),
+    bridge.maps->Forward(v);
+    EXPECT_LT(OptimumError(bridge.image, v), kTight) << seed;
+    EXPECT_NEAR(Objective(Problem(bridge.image).view(), v.x.data()),
                 Objective(Problem(known.problem).view(), known.at.x.data()), kTight);
   }
 }
@@ -83,8 +79,8 @@ TEST_P(EveryBridge, ComesBackToWhereItStarted) {
     const KnownAnswer known = KnownOptimum(Everything(), random);
     const auto bridge = Apply(known.problem);
     Vectors v = known.at;
-    bridge->Forward(v);
-    bridge->Back(v);
+    bridge.maps->Forward(v);
+    bridge.maps->Back(v);
     ExpectNear(v.x, known.at.x, "x");
     ExpectNear(v.x_dual, known.at.x_dual, "x_dual");
     ExpectNear(v.row_dual, known.at.row_dual, "row_dual");
@@ -102,7 +98,7 @@ TEST_P(EveryBridge, BringsDualsBackAtTheirWorth) {
     shape.quadratic = false;
     const KnownAnswer known = KnownOptimum(shape, random);
     const auto bridge = Apply(known.problem);
-    const ProblemData& image = bridge->image().data();
+    const ProblemData& image = bridge.image;
     Vectors v;
     v.x_dual.assign(image.q.size(), 0.0);
     for (std::size_t j = 0; j < image.q.size(); ++j) {
@@ -125,7 +121,7 @@ TEST_P(EveryBridge, BringsDualsBackAtTheirWorth) {
     Vector combined = Combined(image, v);
     combined.resize(known.problem.q.size());
     const double worth = SideSum(image, v);
-    bridge->Back(v);
+    bridge.maps->Back(v);
     ExpectNear(Combined(known.problem, v), combined, "combined duals");
     EXPECT_LT(ConeDualError(known.problem, v.cone_dual), kTight);
     if (std::isfinite(worth)) {
@@ -141,10 +137,10 @@ TEST_P(EveryBridge, TakesAContradictionThereAndBack) {
     ASSERT_LT(ContradictionError(known.problem, known.at), kTight);
     const auto bridge = Apply(known.problem);
     Vectors v = known.at;
-    bridge->Forward(v);
+    bridge.maps->Forward(v);
     NaNToZero(v);
-    EXPECT_LT(ContradictionError(bridge->image().data(), v), kTight) << seed;
-    bridge->Back(v);
+    EXPECT_LT(ContradictionError(bridge.image, v), kTight) << seed;
+    bridge.maps->Back(v);
     EXPECT_LT(ContradictionError(known.problem, v), kTight) << seed;
     EXPECT_NEAR(SideSum(known.problem, v), 1, kTight);
   }
@@ -157,9 +153,9 @@ TEST_P(EveryBridge, TakesARayThereAndBack) {
     ASSERT_LT(RayError(known.problem, known.at.x), kTight);
     const auto bridge = Apply(known.problem);
     Vectors v = known.at;
-    bridge->Forward(v);
-    EXPECT_LT(RayError(bridge->image().data(), v.x), kTight) << seed;
-    bridge->Back(v);
+    bridge.maps->Forward(v);
+    EXPECT_LT(RayError(bridge.image, v.x), kTight) << seed;
+    bridge.maps->Back(v);
     EXPECT_EQ(v.x, known.at.x);
   }
 }
@@ -170,7 +166,7 @@ TEST_P(EveryBridge, AppendsVariablesAndLeavesTheOthersAsTheyAre) {
   ProblemData& d = known.problem;
   d.integer = {0, 1, 0, 0, 1, 0, 1};
   const auto bridge = Apply(d);
-  const ProblemData& image = bridge->image().data();
+  const ProblemData& image = bridge.image;
   const auto n = static_cast<std::ptrdiff_t>(d.q.size());
   ASSERT_GE(image.num_vars, d.num_vars);
   EXPECT_EQ(Vector(image.q.begin(), image.q.begin() + n), d.q);
@@ -206,8 +202,7 @@ TEST_P(EveryBridge, HasAPatternThatDoesNotDependOnTheNumbers) {
   for (Vector* sides : {&other.x_lower, &other.x_upper, &other.row_lower, &other.row_upper}) {
     for (double& side : *sides) side += 0.5;
   }
-  EXPECT_NE(ProblemDifference(Apply(d)->image().data(), Apply(other)->image().data()),
-            kStructureChanged);
+  EXPECT_NE(ProblemDifference(Apply(d).image, Apply(other).image), kStructureChanged);
 }
 
 TEST_P(EveryBridge, LeavesWhatIsNotThereNotThere) {
@@ -216,9 +211,9 @@ TEST_P(EveryBridge, LeavesWhatIsNotThereNotThere) {
   const auto bridge = Apply(known.problem);
   Vectors v;
   v.x = known.at.x;
-  bridge->Forward(v);
+  bridge.maps->Forward(v);
   EXPECT_TRUE(v.x_dual.empty() && v.row_dual.empty() && v.cone_dual.empty());
-  bridge->Back(v);
+  bridge.maps->Back(v);
   EXPECT_EQ(v.x, known.at.x);
   EXPECT_TRUE(v.x_dual.empty() && v.row_dual.empty() && v.cone_dual.empty());
 }

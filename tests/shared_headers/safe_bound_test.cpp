@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "switchyard/boxes.hpp"
 #include "tests/shared_headers/random_problem.hpp"
 
 namespace switchyard::testing {
@@ -204,6 +205,51 @@ TEST(SafeBound, ClosesAColumnByABox) {
   const double lower = -1000, upper = 1000;
   EXPECT_NEAR(BoundAt(OneFreeVariable(), 0.999, &lower, &upper).value, 0.999 - 1, 1e-9);
   EXPECT_EQ(BoundAt(OneFreeVariable(), 0.999, nullptr, &upper).value, -kInfinity);
+}
+
+// P = diag(2^k) + Gram: every column is curved, so none stays open, however wrong the duals are.
+TEST(SafeBound, ClosesFreeColumnsByTheirCurvatureAndStaysBelowTheOptimum) {
+  Random random(4);
+  for (int trial = 0; trial < 2000; ++trial) {
+    Known k = RandomKnown(random, Sides::kSomeInfinite);
+    ProblemData& d = k.data;
+    const Csc gram = d.P;
+    d.P = Csc(d.num_vars, d.num_vars);
+    for (std::int32_t j = 0; j < d.num_vars; ++j) {
+      const auto at = static_cast<std::size_t>(j);
+      const double curve = std::ldexp(1.0, random.Below(9) - 4);
+      d.q[at] -= curve * k.x[at];  // the optimum stays where it is
+      bool written = false;
+      for (std::int32_t e = gram.start[at]; e < gram.start[at + 1]; ++e) {
+        const auto from = static_cast<std::size_t>(e);
+        const bool diagonal = gram.row[from] == j;
+        written = written || diagonal;
+        d.P.row.push_back(gram.row[from]);
+        d.P.value.push_back(gram.value[from] + (diagonal ? curve : 0));
+      }
+      if (!written) {
+        d.P.row.push_back(j);
+        d.P.value.push_back(curve);
+      }
+      d.P.start[at + 1] = static_cast<std::int32_t>(d.P.row.size());
+    }
+    const Problem problem(d);
+    const double optimum = Objective(problem.view(), k.x.data());
+    const Vector curvature = Curvature(problem.view());
+    const double size = std::pow(10.0, random.Uniform(-12, 0));
+    const Vector x = Disturbed(random, k.x, size);
+    const Vector rows = Disturbed(random, k.row_dual, size);
+    const Vector cones = Disturbed(random, k.cone_dual, size);
+    const SafeBound bound =
+        SafeDualBound(problem.view(), x.data(), rows.data(), cones.data(), nullptr, nullptr,
+                      curvature.empty() ? nullptr : curvature.data());
+    EXPECT_LE(bound.value, optimum) << "duals off by " << size;
+    if (gram.nonzeros() > 0) continue;  // dominance may leave a column without
+    EXPECT_EQ(bound.open_column, -1);
+    if (size < 1e-8) {
+      EXPECT_NEAR(bound.value, optimum, 1e4 * size + 1e-9);
+    }
+  }
 }
 
 TEST(SafeBound, DropsADualAgainstAnInfiniteSide) {

@@ -111,6 +111,8 @@ class SWITCHYARD_EXPORT Host {
   void SetOption(const std::string& backend, const std::string& name, const std::string& value);
   void ClearOptions();
 
+  /// Where lines that backends write go, from any thread, one at a time; set before they are solved
+  /// with.
   void SetLog(LogSink sink);
 
  private:
