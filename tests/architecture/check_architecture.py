@@ -14,7 +14,7 @@ from function_lengths import functions
 
 # What a plugin, a solver and core share: the headers directly in include/switchyard.
 SHARED = {"abi.h", "hints.h", "plugin.hpp", "problem.hpp", "problem_update.hpp", "cones.hpp",
-          "safe_bound.hpp", "arcs.hpp"}
+          "boxes.hpp", "safe_bound.hpp", "arcs.hpp", "arc_graph.hpp"}
 
 # Inside core, each part and the parts it may know. `abi` are the shared headers, known to all.
 # Bridges map a sy_problem to a sy_problem: the host applies them for each backend, and neither knows
