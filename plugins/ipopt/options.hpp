@@ -1,0 +1,49 @@
+// options.hpp - Ipopt's own options: those listed, and any other that Ipopt itself knows.
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "IpIpoptApplication.hpp"
+#include "switchyard/abi.h"
+
+namespace switchyard::ipopt {
+
+/// The options that users set most, letter for letter.
+const sy_option* const* OptionTable();
+
+/// How a run goes about it.
+enum class Way {
+  kFullSteps,   // predictor and corrector, no line search: for convex programs
+  kLineSearch,  // from anywhere, for any program
+  kWarm         // likewise, from a point with its multipliers, which stays where it is
+};
+
+class Options {
+ public:
+  /// Throws Failure: an unknown name, another type, a value out of range.
+  void Set(std::string_view name, const sy_value& value);
+
+  /// What one solve runs with: the user's choice, else the host's, else the default of the table.
+  void Give(const sy_control& control, Way way, Ipopt::OptionsList& to) const;
+
+  /// Has the user said how the barrier goes down, or how long?
+  [[nodiscard]] bool ChoosesItsWay() const;
+
+  [[nodiscard]] double Real(std::string_view name) const;
+
+ private:
+  struct Held {
+    sy_type type = SY_REAL;
+    double number = 0;
+    std::string text;
+  };
+
+  static void GiveWay(Way way, Ipopt::OptionsList& to);
+  static void Put(const std::string& name, const Held& held, Ipopt::OptionsList& to);
+
+  std::map<std::string, Held, std::less<>> chosen_;
+};
+
+}  // namespace switchyard::ipopt
