@@ -5,6 +5,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "switchyard/model/new_ids.hpp"
 #include "switchyard/model/program.hpp"
 
 namespace switchyard {
@@ -26,6 +27,8 @@ std::unique_ptr<MathematicalProgram> MathematicalProgram::Clone() const {
   return std::unique_ptr<MathematicalProgram>(new MathematicalProgram(*this));
 }
 
+Variable::Id NewVariableIds(std::int64_t count) { return next_id.fetch_add(count); }
+
 VectorXDecisionVariable MathematicalProgram::AddBlock(std::int64_t count, VariableType type) {
   ++structure_version_;
   constexpr std::int64_t kMost = std::numeric_limits<int>::max();
@@ -33,7 +36,7 @@ VectorXDecisionVariable MathematicalProgram::AddBlock(std::int64_t count, Variab
           ", this one has ", num_vars(), " and got ", count);
   VectorXDecisionVariable added(count);
   if (count == 0) return added;
-  const Variable::Id first = next_id.fetch_add(count);
+  const Variable::Id first = NewVariableIds(count);
   if (!blocks_.empty() && blocks_.back().first_id + blocks_.back().count == first &&
       blocks_.back().first_index + blocks_.back().count == num_vars()) {
     blocks_.back().count += static_cast<int>(count);

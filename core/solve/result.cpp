@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 #include "switchyard/error.hpp"
 
@@ -40,6 +42,15 @@ bool MathematicalProgramResult::is_success() const {
 double MathematicalProgramResult::gap() const {
   if (std::isnan(objective) || std::isnan(bound)) return std::nan("");
   return std::abs(objective - bound) / std::max(1e-10, std::abs(objective));
+}
+
+void MathematicalProgramResult::SetPoint(std::vector<Variable> variables, Eigen::VectorXd x) {
+  Require(static_cast<Eigen::Index>(variables.size()) == x.size(), "a point of ", variables.size(),
+          " variables needs as many entries, got ", x.size());
+  variables_ = std::move(variables);
+  x_ = std::move(x);
+  index_.resize(variables_.size());
+  std::iota(index_.begin(), index_.end(), 0);
 }
 
 int MathematicalProgramResult::IndexOf(Variable variable) const {

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
-#include <thread>
 
 #include "core/host/facade.hpp"
 #include "core/problem/difference.hpp"
@@ -34,10 +32,6 @@ bool Answers(Termination t) {
 
 double BackendSeconds(const Instance* instance) {
   return instance == nullptr ? 0 : ServiceOf(*instance).backend_seconds(instance->get());
-}
-
-std::string TextOf(const SolverOptions::OptionValue& value) {
-  return std::visit([](const auto& v) { return Text(v); }, value);
 }
 
 struct Setting {
@@ -87,6 +81,7 @@ MathematicalProgramResult SolverSession::State::Solve(const std::optional<Eigen:
     const Timer timer(result.seconds.lower);
     unsent_ |= Lower();
   }
+  control_.emplace(options, lowering->maximize());
   if (lowering->crossed_variable() >= 0) {
     result.termination = Termination::kInfeasible;
     result.message = "the bounds of " + program.VariableName(lowering->crossed_variable()) +
@@ -105,7 +100,7 @@ MathematicalProgramResult SolverSession::State::Solve(const std::optional<Eigen:
   }
   result.considered = considered;
   result.seconds.total = Spent();
-  if (thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));
+  control_->RethrowWhatWasThrown();
   return result;
 }
 
@@ -141,72 +136,19 @@ bool SolverSession::State::HandOver(const std::optional<Eigen::VectorXd>& guess,
 }
 
 bool SolverSession::State::Choose(MathematicalProgramResult& result) {
+  constexpr std::uint64_t kNumbers = SY_UPDATES_BOUNDS | SY_UPDATES_VECTORS | SY_UPDATES_VALUES;
   instance.reset();
-  backend = nullptr;
-  considered.clear();
-  std::istringstream list(names);
-  for (std::string name; std::getline(list, name, ',');) {
-    if (name.empty() || host.Find(name) != nullptr) continue;
-    std::vector<std::string> known;
-    for (const Backend* one : host.backends()) known.push_back(one->short_name);
-    const std::string near = NearestName(name, known);
-    considered.push_back({name, false,
-                          near.empty() ? "there is none of that name"
-                                       : "there is none of that name; the nearest is " + near});
-  }
-  for (const Candidate& candidate : host.Rank(lowering->problem().view(), names)) {
-    std::string why = candidate.why;
-    const bool chosen = backend == nullptr && candidate.suitable && TryCandidate(candidate, why);
-    if (!chosen && backend != nullptr && candidate.suitable) why = "comes later in the order";
-    considered.push_back({candidate.backend->id, chosen, lowering->WithNames(program, why)});
-  }
+  BackendChoice choice = ChooseBackend(
+      host, lowering->problem().view(),
+      {names, &options, keeps ? kNumbers : 0,
+       [this](const std::string& text) { return lowering->WithNames(program, text); }});
+  backend = choice.backend;
+  instance = std::move(choice.instance);
+  considered = std::move(choice.considered);
   if (backend != nullptr) return true;
   result.termination = Termination::kNoBackend;
-  for (const Considered& one : considered) {
-    result.message += (result.message.empty() ? "" : "; ") + one.solver + ": " + one.why;
-  }
-  if (result.message.empty()) result.message = "no backend is there";
-  if (!names.empty()) {
-    std::string others;
-    for (const Candidate& candidate : host.Rank(lowering->problem().view())) {
-      if (candidate.suitable)
-        others += (others.empty() ? "" : ", ") + candidate.backend->short_name;
-    }
-    result.message +=
-        others.empty() ? "; no other backend would serve" : "; would serve: " + others;
-  }
+  result.message = std::move(choice.why_none);
   return false;
-}
-
-bool SolverSession::State::TryCandidate(const Candidate& candidate, std::string& why) {
-  const sy_solver& table = *host.Facade(*candidate.backend);
-  try {
-    auto fresh = std::make_unique<Instance>(table, *host.table());
-    SetOptions(*candidate.backend, *fresh);
-    constexpr std::uint64_t kNumbers = SY_UPDATES_BOUNDS | SY_UPDATES_VECTORS | SY_UPDATES_VALUES;
-    fresh->Load(lowering->problem().view(), keeps ? kNumbers : 0);
-    instance = std::move(fresh);
-    backend = candidate.backend;
-    return true;
-  } catch (const BackendError& e) {
-    if (e.code() == SY_E_ARGUMENT) throw InvalidArgument(e.what());
-    why = e.reason();
-    return false;
-  }
-}
-
-void SolverSession::State::SetOptions(const Backend& chosen, Instance& fresh) const {
-  for (const auto& [name, values] : options.options) {
-    if (!name.empty() && name != chosen.id && name != chosen.short_name) continue;
-    for (const auto& [key, value] : values) {
-      const std::string text = TextOf(value);
-      const sy_option* option = FindOption(chosen.facts, key);
-      sy_value given{};
-      given.type = SY_TEXT;
-      given.as.text = text.c_str();
-      fresh.SetOption(key, option != nullptr ? ParseOptionValue(*option, text) : given);
-    }
-  }
 }
 
 void SolverSession::State::SendChanges() {
@@ -231,50 +173,7 @@ void SolverSession::State::Start(const std::optional<Eigen::VectorXd>& guess) {
 }
 
 sy_control SolverSession::State::Control() {
-  const auto in_problem_sense = [&](double value, double unset) {
-    if (std::isnan(value)) return unset;
-    return lowering->maximize() ? -value : value;
-  };
-  sy_control control{};
-  control.size = sizeof control;
-  control.flags = keeps ? std::uint32_t{SY_CONTINUE} : 0;
-  control.threads = options.threads > 0
-                        ? options.threads
-                        : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  control.verbosity = options.verbosity;
-  control.seconds = std::max(0.0, options.time_limit - Spent());
-  control.iterations = options.iteration_limit;
-  control.nodes = options.node_limit;
-  control.cutoff = in_problem_sense(options.cutoff, kInfinity);
-  control.target = in_problem_sense(options.target, -kInfinity);
-  control.feasibility = options.feasibility_tolerance;
-  control.optimality = options.optimality_tolerance;
-  control.integrality = options.integrality_tolerance;
-  control.absolute_gap = options.absolute_gap;
-  control.relative_gap = options.relative_gap;
-  control.seed = options.seed;
-  control.context = this;
-  control.cancelled = [](void* context) noexcept -> std::int32_t {
-    const auto* self = static_cast<const State*>(context);
-    const bool asked = self->options.cancelled != nullptr && self->options.cancelled->load();
-    return asked || self->thrown_ != nullptr ? 1 : 0;
-  };
-  if (!options.progress) return control;
-  control.progress = [](void* context, const sy_progress* p) noexcept -> std::int32_t {
-    auto* self = static_cast<State*>(context);
-    const double sign = self->lowering->maximize() ? -1 : 1;
-    try {
-      return self->options.progress({p->seconds, p->iteration, p->nodes, p->open_nodes,
-                                     sign * p->objective, sign * p->bound, p->primal_residual,
-                                     p->dual_residual, p->incumbent != nullptr})
-                 ? 1
-                 : 0;
-    } catch (...) {
-      self->thrown_ = std::current_exception();
-      return 1;
-    }
-  };
-  return control;
+  return control_->Record(options.time_limit - Spent(), keeps);
 }
 
 // An answer that the check does not support is asked for once more, at a hundredth of the usual

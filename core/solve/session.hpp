@@ -2,12 +2,13 @@
 #pragma once
 
 #include <chrono>
-#include <exception>
 #include <memory>
 #include <optional>
 
 #include "core/host/instance.hpp"
 #include "core/lower/lowering.hpp"
+#include "core/solve/choice.hpp"
+#include "core/solve/control.hpp"
 #include "core/solve/recovery.hpp"
 #include "switchyard/solve/solve.hpp"
 
@@ -35,8 +36,6 @@ struct SolverSession::State {
   std::uint64_t Lower();
   bool HandOver(const std::optional<Eigen::VectorXd>& guess, MathematicalProgramResult& result);
   bool Choose(MathematicalProgramResult& result);
-  bool TryCandidate(const Candidate& candidate, std::string& why);
-  void SetOptions(const Backend& chosen, Instance& fresh) const;
   void SendChanges();
   void Start(const std::optional<Eigen::VectorXd>& guess);
   void Run(MathematicalProgramResult& result);
@@ -47,7 +46,7 @@ struct SolverSession::State {
 
   std::uint64_t unsent_ = 0;  // what changed since the backend was last told
   Clock::time_point began_;
-  std::exception_ptr thrown_;  // by the user's progress function; rethrown after the solve
+  std::optional<SolveControl> control_;
 };
 
 }  // namespace switchyard

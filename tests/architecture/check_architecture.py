@@ -26,10 +26,11 @@ CORE_KNOWS = {
     "host": {"linalg", "problem", "bridges"},
     "model": {"linalg"},
     "lower": {"linalg", "problem", "model"},
-    "io": {"linalg", "model"},
 }
 for above in ("solve", "sets", "gcs", "trajectory"):
-    CORE_KNOWS[above] = set(CORE_KNOWS) - {"io"}
+    CORE_KNOWS[above] = set(CORE_KNOWS)
+# Files hold programs and graphs, and no answers.
+CORE_KNOWS["io"] = {"linalg", "model", "sets", "gcs"}
 
 # Headers of solver libraries: core names no solver.
 SOLVER_HEADERS = re.compile(

@@ -132,6 +132,14 @@ class SWITCHYARD_EXPORT MathematicalProgramResult {
   [[nodiscard]] std::vector<std::string> GetInfeasibleConstraintNames(
       const MathematicalProgram& program, double tolerance = 1e-6) const;
 
+  /// For a layer that answers in variables of its own: x[k] belongs to variables[k], whose ids
+  /// ascend.
+  void SetPoint(std::vector<Variable> variables, Eigen::VectorXd x);
+  /// Has a point, and the variable is one of it?
+  [[nodiscard]] bool Knows(Variable variable) const {
+    return x_.size() > 0 && IndexOf(variable) >= 0;
+  }
+
  private:
   friend class Recovery;
   [[nodiscard]] int IndexOf(Variable variable) const;

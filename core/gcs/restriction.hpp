@@ -1,0 +1,22 @@
+// core/gcs/restriction.hpp - the program of one path.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "switchyard/gcs/graph_of_convex_sets.hpp"
+
+namespace switchyard {
+
+/// A path as its vertices: one more than edges. Throws InvalidArgument where an edge does not begin
+/// where the one before ended.
+std::vector<const GraphOfConvexSets::Vertex*> VerticesOf(
+    const std::vector<const GraphOfConvexSets::Edge*>& edges);
+
+/// One x for each vertex, its set, and the terms tagged for the restriction, verbatim. A vertex that
+/// the path visits twice has one point.
+std::unique_ptr<MathematicalProgram> RestrictionOf(
+    const std::vector<const GraphOfConvexSets::Vertex*>& vertices,
+    const std::vector<const GraphOfConvexSets::Edge*>& edges);
+
+}  // namespace switchyard
