@@ -1,0 +1,46 @@
+#include "solvers/rounding/bound.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "solvers/rounding/exact_duals.hpp"
+#include "switchyard/boxes.hpp"
+#include "switchyard/problem.hpp"
+#include "switchyard/safe_bound.hpp"
+
+namespace switchyard::rounding {
+namespace {
+
+double BoundOver(const sy_problem& problem, const Answer& relaxed, const double* lower,
+                 const double* upper) {
+  Duals duals{relaxed.row_dual, relaxed.cone_dual};
+  MakeExact(problem, lower, upper, duals);
+  const std::vector<double> curvature = Curvature(problem);
+  return SafeDualBound(problem, relaxed.x.data(), duals.row.data(), duals.cone.data(), lower, upper,
+                       curvature.empty() ? nullptr : curvature.data())
+      .value;
+}
+
+}  // namespace
+
+double ProvenBound(const sy_problem& problem, const Answer& relaxed, double cutoff) {
+  const double bound = BoundOver(problem, relaxed, problem.x_lower, problem.x_upper);
+  if (bound > -kInfinity || !(cutoff < kInfinity)) return bound;
+  const Boxes boxes = ProvenBoxes(problem, cutoff);
+  if (boxes.infeasible) return cutoff;
+  return std::min(cutoff, BoundOver(problem, relaxed, boxes.lower.data(), boxes.upper.data()));
+}
+
+bool ProvesInfeasible(const sy_problem& problem, const Answer& certificate) {
+  const std::vector<double> zero(static_cast<std::size_t>(problem.num_vars), 0.0);
+  sy_problem feasibility = problem;
+  feasibility.P = nullptr;
+  feasibility.q = zero.data();
+  feasibility.offset = 0;
+  Answer duals = certificate;
+  duals.x = zero;
+  return BoundOver(feasibility, duals, problem.x_lower, problem.x_upper) > 0;
+}
+
+}  // namespace switchyard::rounding

@@ -1,0 +1,158 @@
+#include "solvers/rounding/candidates.hpp"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <exception>
+#include <optional>
+#include <set>
+#include <span>
+#include <thread>
+
+#include "solvers/rounding/backend.hpp"
+#include "solvers/rounding/restriction.hpp"
+#include "solvers/rounding/verify.hpp"
+#include "switchyard/problem.hpp"
+
+namespace switchyard::rounding {
+namespace {
+
+constexpr double kFeasibility = 1e-6;
+
+std::string Join(const std::string& one, const std::string& other) {
+  return one.empty() || other.empty() ? one + other : one + "; " + other;
+}
+
+class Solving {
+ public:
+  Solving(const PathProblem& whole, const sy_host& host, const Options& options,
+          std::int64_t instances, Budget& budget)
+      : whole_(whole), host_(host), options_(options), instances_(instances), budget_(budget) {}
+
+  /// Never throws: what fails is the candidate's reason.
+  void Solve(Candidate& candidate) const noexcept {
+    try {
+      if (budget_.Stopped()) {
+        candidate.termination = budget_.reason();
+      } else if (whole_.paths().solve_path != nullptr) {
+        SolveByFrontEnd(candidate);
+      } else {
+        SolveRestriction(candidate);
+      }
+    } catch (const std::exception& e) {
+      candidate.termination = SY_NUMERICAL_TROUBLE;
+      candidate.text = e.what();
+    }
+  }
+
+ private:
+  void SolveRestriction(Candidate& candidate) const {
+    const Restriction restriction = Restrict(whole_, candidate.path);
+    if (!restriction.contradiction.empty()) {
+      candidate.termination = SY_INFEASIBLE;
+      candidate.text = restriction.contradiction;
+      return;
+    }
+    Answer answer;
+    answer.termination = SY_OPTIMAL;
+    answer.primal = SY_FEASIBLE;
+    if (!restriction.variables.empty()) {
+      const Problem problem(restriction.problem);
+      const char* names = options_.solver.empty() ? nullptr : options_.solver.c_str();
+      const sy_solver& solver = FindBackend(host_, problem.view(), names, instances_);
+      answer = SolveBy(solver, host_, problem.view(), budget_.Part(1));
+    }
+    candidate.termination = answer.termination;
+    candidate.text = answer.text;
+    candidate.iterations = answer.iterations;
+    if (answer.primal == SY_NO_POINT || answer.primal == SY_CERTIFICATE) return;
+    Judge(InWhole(whole_, restriction, answer.x), candidate);
+  }
+
+  /// A point that holds counts, whatever its backend says of it.
+  void Judge(std::vector<double> x, Candidate& candidate) const {
+    const std::string violated = WhatIsViolated(whole_.problem(), x.data(), kFeasibility);
+    if (!violated.empty()) {
+      if (candidate.termination == SY_OPTIMAL) candidate.termination = SY_NUMERICAL_TROUBLE;
+      candidate.text = Join(candidate.text, "its point does not hold: " + violated);
+      return;
+    }
+    candidate.feasible = candidate.verified = true;
+    candidate.objective = Objective(whole_.problem(), x.data());
+    candidate.x = std::move(x);
+  }
+
+  void SolveByFrontEnd(Candidate& candidate) const {
+    std::vector<double> x(static_cast<std::size_t>(whole_.problem().num_vars), std::nan(""));
+    std::array<char, 512> text{};
+    sy_result result{};
+    result.size = sizeof result;
+    result.objective = result.relaxed = std::nan("");
+    result.bound = -kInfinity;
+    result.x = x.data();
+    result.text = text.data();
+    result.text_size = text.size();
+    sy_error error{};
+    const sy_paths& paths = whole_.paths();
+    const sy_control control = budget_.Part(1);
+    const sy_status status = paths.solve_path(paths.context, candidate.path.data(),
+                                              static_cast<std::int32_t>(candidate.path.size()),
+                                              &control, &result, &error);
+    if (status < 0) throw std::runtime_error(error.text);
+    text.back() = '\0';
+    candidate.termination = result.termination;
+    candidate.text = text.data();
+    candidate.iterations = result.iterations;
+    if (result.primal != SY_FEASIBLE || !std::isfinite(result.objective)) return;
+    candidate.feasible = true;
+    candidate.objective = result.objective;
+    candidate.verified = WhatIsViolated(whole_.problem(), x.data(), kFeasibility).empty();
+    if (candidate.verified) candidate.x = std::move(x);
+  }
+
+  const PathProblem& whole_;
+  const sy_host& host_;
+  const Options& options_;
+  const std::int64_t instances_;
+  Budget& budget_;
+};
+
+}  // namespace
+
+std::vector<Candidate> SampleCandidates(const PathProblem& whole, const std::vector<double>& x,
+                                        const Options& options, std::uint64_t seed) {
+  const sy_paths& paths = whole.paths();
+  std::vector<double> flow;
+  for (std::int32_t a = 0; a < paths.num_arcs; ++a) {
+    flow.push_back(x[static_cast<std::size_t>(paths.flow[a])]);
+  }
+  std::vector<Candidate> candidates;
+  std::set<std::vector<std::int32_t>> known;
+  Random random(seed);
+  for (int trial = 0; trial < options.trials; ++trial) {
+    if (candidates.size() >= static_cast<std::size_t>(options.paths)) break;
+    auto path = SamplePath(whole.arcs(), whole.out(), flow, options.flow_tolerance, paths.source,
+                           paths.target, random);
+    if (!path) break;  // then no draw finds one
+    if (!known.insert(*path).second) continue;
+    candidates.emplace_back().path = std::move(*path);
+  }
+  return candidates;
+}
+
+void SolveCandidates(const PathProblem& whole, const sy_host& host, const Options& options,
+                     std::int32_t threads, Budget& budget, std::vector<Candidate>& candidates) {
+  const std::size_t workers =
+      std::clamp<std::size_t>(candidates.size(), 1, static_cast<std::size_t>(std::max(1, threads)));
+  const Solving solving(whole, host, options, static_cast<std::int64_t>(workers), budget);
+  std::atomic<std::size_t> next = 0;
+  const auto work = [&] {
+    for (std::size_t k = next++; k < candidates.size(); k = next++) solving.Solve(candidates[k]);
+  };
+  std::vector<std::jthread> others;
+  for (std::size_t w = 1; w < workers; ++w) others.emplace_back(work);
+  work();
+}
+
+}  // namespace switchyard::rounding

@@ -1,0 +1,38 @@
+// solvers/rounding/candidates.hpp - paths drawn from the relaxed flow, and what each is worth.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "solvers/rounding/budget.hpp"
+#include "solvers/rounding/options.hpp"
+#include "solvers/rounding/path_problem.hpp"
+#include "switchyard/abi.h"
+
+namespace switchyard::rounding {
+
+/// A path that was tried: its restriction's answer, judged.
+struct Candidate {
+  std::vector<std::int32_t> path;  // arcs
+  sy_termination termination = SY_NOT_SOLVED;
+  bool feasible = false;  // x holds in the whole problem; or solve_path said so
+  bool verified = false;  // x holds in the whole problem
+  double objective = 0;   // where feasible
+  std::string text;       // the reason
+  std::int64_t iterations = 0;
+  std::vector<double> x;  // of the whole problem, where verified
+};
+
+/// Up to options.paths distinct paths within options.trials draws from the relaxed point's flows.
+std::vector<Candidate> SampleCandidates(const PathProblem& whole, const std::vector<double>& x,
+                                        const Options& options, std::uint64_t seed);
+
+/// Solves the restriction of each candidate from nothing, at most `threads` at a time, each by one
+/// thread: the answers do not depend on how many. A point counts only where it holds in the whole
+/// problem, relative 1e-6, and its objective is computed here. Where the front end solves paths
+/// itself, its word for the objective stands.
+void SolveCandidates(const PathProblem& whole, const sy_host& host, const Options& options,
+                     std::int32_t threads, Budget& budget, std::vector<Candidate>& candidates);
+
+}  // namespace switchyard::rounding

@@ -1,0 +1,24 @@
+// solvers/rounding/options.hpp - what can be set of relax-and-round.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "switchyard/abi.h"
+
+namespace switchyard::rounding {
+
+struct Options {
+  std::string solver;            // names of backends for relaxation and restrictions; "": any
+  int paths = 10;                // distinct ones to try; 0: the relaxation alone
+  int trials = 100;              // draws of a path
+  double flow_tolerance = 1e-5;  // arcs with no more flow are not drawn
+
+  /// Throws plugin::Failure: an unknown name, another type, a value out of range.
+  void Set(std::string_view name, const sy_value& value);
+};
+
+/// The table of Options, NULL-terminated.
+const sy_option* const* OptionTable();
+
+}  // namespace switchyard::rounding

@@ -1,0 +1,239 @@
+#include "solvers/rounding/relax_and_round.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <sstream>
+
+#include "solvers/rounding/bound.hpp"
+#include "switchyard/plugin.hpp"
+#include "switchyard/problem.hpp"
+
+namespace switchyard::rounding {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+bool IsPoint(sy_point_kind kind) { return kind != SY_NO_POINT && kind != SY_CERTIFICATE; }
+
+/// One solve: what was found so far.
+class Run {
+ public:
+  Run(const PathProblem& whole, const Options& options, const sy_host& host, Budget& budget)
+      : whole_(whole), p_(whole.problem()), options_(options), host_(host), budget_(budget) {}
+
+  void Solve() {
+    if (!TargetIsReached()) return Finish(SY_INFEASIBLE, "no arcs lead from source to target");
+    Relax();
+    if (const auto end = EndOfRelaxation()) return Finish(*end, "");
+    candidates_ = SampleCandidates(whole_, relaxed_.x, options_, budget_.control().seed);
+    if (candidates_.empty()) {
+      return Finish(SY_NO_PATH, "the relaxed flow holds no path from source to target");
+    }
+    SolveCandidates(whole_, host_, options_, budget_.control().threads, budget_, candidates_);
+    KeepTheBest();
+    CloseTheBound();
+    Finish(Verdict(), ReasonOfFailure());
+  }
+
+  void Write(sy_result& result) const;
+
+ private:
+  [[nodiscard]] bool TargetIsReached() const {
+    const auto reached = Reached(whole_.arcs(), whole_.out(), whole_.paths().source);
+    return reached[static_cast<std::size_t>(whole_.paths().target)] != 0;
+  }
+
+  void Relax() {
+    const char* names = options_.solver.empty() ? nullptr : options_.solver.c_str();
+    const sy_problem& relaxation = whole_.relaxation();
+    const sy_solver& solver = FindBackend(host_, relaxation, names, 1);
+    relaxation_id_ = solver.id;
+    const double begin = budget_.Seconds();
+    relaxed_ = SolveBy(solver, host_, relaxation, budget_.Part(budget_.control().threads));
+    relaxation_seconds_ = budget_.Seconds() - begin;
+    if (relaxed_.dual != SY_CERTIFICATE) bound_ = ProvenBound(p_, relaxed_, kInfinity);
+    budget_.Tell(kNaN, bound_, nullptr);
+  }
+
+  /// The answer where the relaxation leaves nothing to round. What a limit or numerical trouble
+  /// leaves of a relaxed point is as good a guide as any.
+  std::optional<sy_termination> EndOfRelaxation() {
+    if (relaxed_.termination == SY_INFEASIBLE) return JudgeContradiction();
+    if (budget_.Stopped()) return budget_.reason();
+    if (relaxed_.termination == SY_UNBOUNDED) return SY_INFEASIBLE_OR_UNBOUNDED;
+    if (bound_ >= budget_.control().cutoff) return SY_CUTOFF;
+    if (!IsPoint(relaxed_.primal)) {
+      const bool solved = relaxed_.termination == SY_OPTIMAL;
+      return solved ? SY_NUMERICAL_TROUBLE : relaxed_.termination;
+    }
+    if (options_.paths == 0) return SY_NOT_SOLVED;
+    return std::nullopt;
+  }
+
+  /// A contradiction is believed where it is proven here, or where its certificate goes along for
+  /// whoever reads the answer.
+  sy_termination JudgeContradiction() {
+    if (relaxed_.dual == SY_CERTIFICATE || ProvesInfeasible(p_, relaxed_)) return SY_INFEASIBLE;
+    relaxed_.text += " (a contradiction without a proof)";
+    return SY_NUMERICAL_TROUBLE;
+  }
+
+  // In the order of the paths, whatever the order in which they were solved.
+  void KeepTheBest() {
+    for (const Candidate& c : candidates_) {
+      if (c.feasible) ++num_feasible_;
+      if (c.feasible && (best_ == nullptr || c.objective < best_->objective)) {
+        best_ = &c;
+        budget_.Tell(c.objective, bound_, c.verified ? c.x.data() : nullptr);
+      }
+      TellFrontEnd(c);
+    }
+  }
+
+  void TellFrontEnd(const Candidate& c) const {
+    const sy_paths& paths = whole_.paths();
+    if (paths.tried == nullptr) return;
+    std::string text = c.text;
+    sy_result told{};
+    told.size = sizeof told;
+    told.termination = c.termination;
+    told.primal = c.feasible ? SY_FEASIBLE : SY_NO_POINT;
+    told.objective = c.feasible ? c.objective : kNaN;
+    told.relaxed = kNaN;
+    told.bound = -kInfinity;
+    told.iterations = c.iterations;
+    told.text = text.data();
+    told.text_size = text.size() + 1;
+    paths.tried(paths.context, c.path.data(), static_cast<std::int32_t>(c.path.size()), &told);
+  }
+
+  // Variables without boxes may get some from the best objective. It must be one of this problem.
+  void CloseTheBound() {
+    if (best_ == nullptr || !best_->verified || bound_ > -kInfinity) return;
+    if (relaxed_.dual != SY_CERTIFICATE) bound_ = ProvenBound(p_, relaxed_, best_->objective);
+  }
+
+  [[nodiscard]] sy_termination Verdict() const {
+    const sy_control& control = budget_.control();
+    if (best_ != nullptr) {
+      const double gap = std::max(0.0, best_->objective - bound_);
+      const double relative = std::isnan(control.relative_gap) ? 1e-4 : control.relative_gap;
+      const double absolute = std::isnan(control.absolute_gap) ? 0 : control.absolute_gap;
+      const double size = std::max(1e-10, std::abs(best_->objective));
+      if (gap <= relative * size || gap <= absolute) return SY_OPTIMAL;
+      if (best_->objective <= control.target) return SY_TARGET;
+    }
+    if (budget_.reason() != SY_NOT_SOLVED) return budget_.reason();
+    return best_ != nullptr ? SY_LOCALLY_OPTIMAL : SY_RESTRICTIONS_FAILED;
+  }
+
+  [[nodiscard]] std::string ReasonOfFailure() const {
+    if (best_ != nullptr) return "";
+    const Candidate& first = candidates_.front();
+    return "the first path: " + (first.text.empty() ? "no feasible point" : first.text);
+  }
+
+  void Finish(sy_termination termination, const std::string& why) {
+    termination_ = termination;
+    std::ostringstream text;
+    if (!relaxation_id_.empty()) {
+      text << "relaxation by " << relaxation_id_ << " in " << relaxation_seconds_ << " s";
+      if (!candidates_.empty()) {
+        text << "; " << num_feasible_ << " of " << candidates_.size() << " paths feasible";
+      } else if (!relaxed_.text.empty()) {
+        text << ": " << relaxed_.text;
+      }
+    }
+    if (!why.empty()) text << (text.tellp() > 0 ? "; " : "") << why;
+    text_ = text.str();
+  }
+
+  const PathProblem& whole_;
+  const sy_problem& p_;
+  const Options& options_;
+  const sy_host& host_;
+  Budget& budget_;
+
+  Answer relaxed_;
+  std::string relaxation_id_;
+  double relaxation_seconds_ = 0;
+  double bound_ = -kInfinity;
+  std::vector<Candidate> candidates_;
+  const Candidate* best_ = nullptr;
+  int num_feasible_ = 0;
+  sy_termination termination_ = SY_NOT_SOLVED;
+  std::string text_;
+};
+
+void Put(const std::vector<double>& from, double* to) {
+  if (to != nullptr) std::copy(from.begin(), from.end(), to);
+}
+
+void Run::Write(sy_result& result) const {
+  result.termination = termination_;
+  result.primal = result.dual = SY_NO_POINT;
+  result.objective = result.relaxed = kNaN;
+  result.bound = bound_;
+  result.iterations = relaxed_.iterations;
+  result.nodes = 0;
+  for (const Candidate& c : candidates_) result.iterations += c.iterations;
+  if (best_ != nullptr) result.objective = best_->objective;
+  if (best_ != nullptr && best_->verified) {
+    result.primal = SY_FEASIBLE;
+    Put(best_->x, result.x);
+  }
+  if (IsPoint(relaxed_.primal)) {
+    result.relaxed = Objective(p_, relaxed_.x.data());
+    Put(relaxed_.x, result.relaxed_x);
+  }
+  if (termination_ == SY_INFEASIBLE && relaxed_.dual == SY_CERTIFICATE) {
+    result.dual = SY_CERTIFICATE;
+    Put(relaxed_.x_dual, result.x_dual);
+    Put(relaxed_.row_dual, result.row_dual);
+    Put(relaxed_.cone_dual, result.cone_dual);
+  }
+  if (result.text != nullptr && result.text_size > 0) {
+    std::snprintf(result.text, result.text_size, "%s", text_.c_str());
+  }
+  result.seconds = budget_.Seconds();
+}
+
+}  // namespace
+
+void RelaxAndRound::Supports(const sy_host&, const sy_problem& problem) {
+  const char* why = WhyNot(problem);
+  if (*why != '\0') throw plugin::Failure(SY_E_UNSUPPORTED, why);
+}
+
+void RelaxAndRound::Load(const sy_problem& problem, std::uint64_t) { problem_.emplace(problem); }
+
+void RelaxAndRound::Solve(const sy_control& control, sy_result& result) {
+  Budget budget(control);
+  Run run(*problem_, options_, host_, budget);
+  run.Solve();
+  run.Write(result);
+}
+
+sy_solver RelaxAndRound::Describe() {
+  constexpr std::uint64_t kAllCones = (std::uint64_t{1} << (SY_CONE_ROTATED + 1)) - 1;
+  sy_solver t = {};
+  t.id = "org.switchyard.relax-and-round";
+  t.name = "relax-and-round";
+  t.version = "1.0";
+  t.license = "BSD-3-Clause";
+  t.accepts =
+      SY_ACCEPTS_BOUNDS | SY_ACCEPTS_ROWS | SY_ACCEPTS_QUADRATIC_OBJECTIVE | SY_ACCEPTS_INTEGER;
+  t.cones = kAllCones;
+  t.integer_accepts = t.accepts;
+  t.integer_cones = t.cones;
+  t.traits = SY_STRATEGY | SY_GIVES_BOUND;
+  t.honors = SY_HONORS_THREADS | SY_HONORS_SECONDS | SY_HONORS_CUTOFF | SY_HONORS_TARGET |
+             SY_HONORS_FEASIBILITY | SY_HONORS_OPTIMALITY | SY_HONORS_ABSOLUTE_GAP |
+             SY_HONORS_RELATIVE_GAP | SY_HONORS_SEED | SY_HONORS_VERBOSITY | SY_HONORS_CANCELLED;
+  t.options = OptionTable();
+  return t;
+}
+
+}  // namespace switchyard::rounding
