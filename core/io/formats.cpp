@@ -7,6 +7,7 @@
 #include "core/io/cbf.hpp"
 #include "core/io/mps_data.hpp"
 #include "core/io/mps_writer.hpp"
+#include "core/io/program_json.hpp"
 #include "switchyard/io/read.hpp"
 #include "switchyard/io/write.hpp"
 
@@ -16,6 +17,7 @@ namespace {
 
 constexpr std::array<std::string_view, 2> kMpsEndings = {".mps", ".qps"};
 constexpr std::array<std::string_view, 1> kCbfEndings = {".cbf"};
+constexpr std::array<std::string_view, 1> kJsonEndings = {".json"};
 
 bool StartsLikeMps(std::string_view line) {
   return std::any_of(line.begin(), line.end(), IsBlank)
@@ -25,9 +27,13 @@ bool StartsLikeMps(std::string_view line) {
 
 bool StartsLikeCbf(std::string_view line) { return line == "VER"; }
 
-constexpr std::array<FormatFacts, 2> kFormats = {{
-    {FileFormat::kMps, "mps", kMpsEndings, StartsLikeMps, ReadMps, MpsCannotHold, WriteMps},
-    {FileFormat::kCbf, "cbf", kCbfEndings, StartsLikeCbf, ReadCbf, CbfCannotHold, WriteCbf},
+bool StartsLikeJson(std::string_view line) { return line.starts_with("{"); }
+
+constexpr std::array<FormatFacts, 3> kFormats = {{
+    {FileFormat::kMps, "mps", kMpsEndings, true, StartsLikeMps, ReadMps, MpsCannotHold, WriteMps},
+    {FileFormat::kCbf, "cbf", kCbfEndings, true, StartsLikeCbf, ReadCbf, CbfCannotHold, WriteCbf},
+    {FileFormat::kJson, "json", kJsonEndings, false, StartsLikeJson, ReadProgramJson,
+     ProgramJsonCannotHold, WriteProgramJson},
 }};
 
 const FormatFacts& FactsOf(FileFormat format) {
@@ -90,7 +96,9 @@ std::unique_ptr<MathematicalProgram> ReadText(std::string_view bytes, const std:
                                               const ReadOptions& options) {
   const FileText text(bytes, name);
   Notes notes(options.notes);
-  auto program = Recognized(text, options.format).read(text, &notes);
+  const FormatFacts& facts = Recognized(text, options.format);
+  if (facts.by_lines) text.CheckLines();
+  auto program = facts.read(text, &notes);
   notes.Finish();
   return program;
 }

@@ -17,6 +17,7 @@ struct FormatFacts {
   FileFormat format;
   std::string_view name;
   std::span<const std::string_view> endings;
+  bool by_lines;  // FileText::CheckLines holds
   /// Does the first line that is neither blank nor a comment look like it?
   bool (*starts_with)(std::string_view line);
   std::unique_ptr<MathematicalProgram> (*read)(const FileText& text, Notes* notes);

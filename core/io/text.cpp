@@ -17,6 +17,15 @@ FileError::FileError(const std::string& file, int line, int column, const std::s
       expected_(expected),
       found_(found) {}
 
+FileError::FileError(const std::string& file, const std::string& pointer,
+                     const std::string& expected, const std::string& found)
+    : InvalidArgument(Text(file, ": ", pointer, pointer.empty() ? "" : ": ", "needs ", expected,
+                           ", got ", found)),
+      file_(file),
+      pointer_(pointer),
+      expected_(expected),
+      found_(found) {}
+
 FileError::~FileError() = default;
 
 }  // namespace switchyard
@@ -138,6 +147,9 @@ FileText::FileText(std::string_view bytes, std::string file)
     : bytes_(bytes), file_(std::move(file)) {
   const std::size_t nul = bytes_.find('\0');
   if (nul != std::string_view::npos) Fail(bytes_.substr(nul, 1), "text");
+}
+
+void FileText::CheckLines() const {
   for (std::size_t start = 0; start < bytes_.size();) {
     const std::size_t end = std::min(bytes_.find('\n', start), bytes_.size());
     if (end - start > kLineLimit) {

@@ -31,8 +31,10 @@ bool ParseInfinity(std::string_view field, double* value);
 /// is one.
 class FileText {
  public:
-  /// Throws FileError at a NUL byte or a line of more than 2^16 bytes.
+  /// Throws FileError at a NUL byte.
   FileText(std::string_view bytes, std::string file);
+  /// Throws FileError at a line of more than 2^16 bytes: for formats whose lines mean something.
+  void CheckLines() const;
 
   [[nodiscard]] std::string_view bytes() const { return bytes_; }
   [[nodiscard]] const std::string& file() const { return file_; }

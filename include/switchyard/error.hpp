@@ -4,6 +4,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "switchyard/export.hpp"
 
@@ -35,5 +36,9 @@ void Require(bool holds, const Parts&... parts) {
     Refuse(parts...);
   }
 }
+
+/// The distance-nearest of `names` to a misspelt one, or "" where none is near.
+SWITCHYARD_EXPORT std::string NearestName(const std::string& wrong,
+                                          const std::vector<std::string>& names);
 
 }  // namespace switchyard

@@ -211,7 +211,7 @@ TEST(ErrorTexts, OfFilesOfNoFormat) {
     } catch (const InvalidArgument& error) {
       EXPECT_EQ(error.what(), Text(name,
                                    ": a format to read is named, or told by an ending (.mps, "
-                                   ".qps, .cbf; each with .gz too) or by the first line; "
+                                   ".qps, .cbf, .json; each with .gz too) or by the first line; "
                                    "here none tells"));
     }
   }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "switchyard/abi.h"
+#include "switchyard/error.hpp"
 #include "switchyard/export.hpp"
 
 namespace switchyard {
@@ -119,10 +120,6 @@ class SWITCHYARD_EXPORT Host {
   struct State;
   std::unique_ptr<State> state_;
 };
-
-/// The distance-nearest of `names` to a misspelt one, or "" where none is near.
-SWITCHYARD_EXPORT std::string NearestName(const std::string& wrong,
-                                          const std::vector<std::string>& names);
 
 /// A text as the value that an option takes. Throws InvalidArgument, naming option, need and text.
 /// A text value points into `text`.
