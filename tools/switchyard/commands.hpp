@@ -15,7 +15,9 @@ enum ExitCode : int {
 
 /// Each adds its subcommand, which leaves its exit code in `code`.
 void AddSolveCommand(CLI::App& app, int& code);
+void AddPlanCommand(CLI::App& app, int& code);
 void AddPluginsCommand(CLI::App& app, int& code);
 void AddConvertCommand(CLI::App& app, int& code);
+void AddGenerateCommand(CLI::App& app, int& code);
 
 }  // namespace switchyard::cli

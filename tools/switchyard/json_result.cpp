@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <unordered_map>
 
 #include "switchyard/error.hpp"
 
@@ -13,6 +14,7 @@ namespace switchyard::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using Edge = GraphOfConvexSets::Edge;
 
 /// Unknown is null, infinities are strings.
 Json Number(double value) {
@@ -44,11 +46,9 @@ Json Seconds(const SolveTimes& t) {
           {"solve", t.solve}, {"recover", t.recover}, {"total", t.total}};
 }
 
-}  // namespace
-
-void WriteResult(const MathematicalProgram& program, const MathematicalProgramResult& result,
-                 const std::string& path) {
-  Json json = {{"format", "result/1"}, {"command", "solve"}, {"name", program.name()}};
+/// What the results of all commands have.
+Json Common(const char* command, const std::string& name, const MathematicalProgramResult& result) {
+  Json json = {{"format", "result/1"}, {"command", command}, {"name", name}};
   if (!result.solver.empty()) {
     json["solver"] = result.solver;
     json["solver_version"] = result.solver_version;
@@ -81,7 +81,75 @@ void WriteResult(const MathematicalProgram& program, const MathematicalProgramRe
   }
   if (!result.bridges.empty()) json["bridges"] = result.bridges;
   if (!result.notes.empty()) json["notes"] = result.notes;
+  return json;
+}
+
+Json Numbers(const Eigen::VectorXd& x) {
+  Json numbers = Json::array();
+  for (const double value : x) numbers.push_back(Number(value));
+  return numbers;
+}
+
+Json VertexNames(const GraphProblem& problem, const std::vector<const Edge*>& edges) {
+  Json names = Json::array();
+  names.push_back(problem.source->name());
+  for (const Edge* edge : edges) names.push_back(edge->v().name());
+  return names;
+}
+
+}  // namespace
+
+void WriteResult(const MathematicalProgram& program, const MathematicalProgramResult& result,
+                 const std::string& path) {
+  Write(Common("solve", program.name(), result), path);
+}
+
+void WritePlanResult(const GraphProblem& problem, const ShortestPath& found,
+                     const std::string& path) {
+  Json json = Common("plan", problem.name, found.result);
+  json["subsolvers"] = found.subsolvers;
+  if (!std::isnan(found.relaxation_cost)) {
+    json["relaxation"] = {{"cost", Number(found.relaxation_cost)},
+                          {"seconds", Number(found.relaxation_seconds)}};
+  }
+  std::unordered_map<const Edge*, std::size_t> index;
+  for (const Edge* edge : std::as_const(*problem.graph).Edges()) index.emplace(edge, index.size());
+  if (!found.points.empty()) {
+    json["path"] = VertexNames(problem, found.edges);
+    json["edges"] = Json::array();
+    for (const Edge* edge : found.edges) json["edges"].push_back(index.at(edge));
+    json["points"] = Json::array();
+    for (const Eigen::VectorXd& x : found.points) json["points"].push_back(Numbers(x));
+  }
+  json["rounded"] = Json::array();
+  for (const RoundedPath& tried : found.rounded) {
+    Json one = {{"path", VertexNames(problem, tried.edges)},
+                {"cost", Number(tried.cost)},
+                {"termination", to_string(tried.termination)}};
+    if (!tried.reason.empty()) one["reason"] = tried.reason;
+    json["rounded"].push_back(std::move(one));
+  }
+  json["pruned"] = {{"edges_before", found.edges_before}, {"edges_after", found.edges_after}};
   Write(json, path);
+}
+
+void WritePlanSolution(const GraphProblem& problem, const ShortestPath& found,
+                       const std::string& path) {
+  Json variables = Json::object();
+  const GraphOfConvexSets& graph = *problem.graph;
+  for (const auto* vertex : graph.Vertices()) {
+    const auto x = vertex->GetSolution(found.result);
+    if (!x.has_value()) continue;
+    for (Eigen::Index i = 0; i < x->size(); ++i) {
+      variables[vertex->name() + ".x[" + std::to_string(i) + "]"] = Number((*x)[i]);
+    }
+  }
+  for (const Edge* edge : graph.Edges()) {
+    if (!found.result.Knows(edge->phi())) continue;
+    const double flow = found.result.GetSolution(edge->phi());
+    if (flow != 0) variables[edge->name() + ".flow"] = Number(flow);
+  }
+  Write({{"variables", std::move(variables)}, {"rows", Json::object()}}, path);
 }
 
 void WriteSolution(const MathematicalProgram& program, const MathematicalProgramResult& result,

@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "switchyard/gcs/shortest_path.hpp"
+#include "switchyard/io/graph.hpp"
 #include "switchyard/solve/result.hpp"
 
 namespace switchyard::cli {
@@ -11,8 +13,16 @@ namespace switchyard::cli {
 void WriteResult(const MathematicalProgram& program, const MathematicalProgramResult& result,
                  const std::string& path);
 
+/// The same of a plan, with path, points and what was tried; edges are numbered as in the file.
+void WritePlanResult(const GraphProblem& problem, const ShortestPath& found,
+                     const std::string& path);
+
 /// {"variables": {name: value}, "rows": {name: dual}}.
 void WriteSolution(const MathematicalProgram& program, const MathematicalProgramResult& result,
                    const std::string& path);
+
+/// The same of a plan: "VERTEX.x[0]" for each vertex and "EDGE.flow" for each edge that has flow.
+void WritePlanSolution(const GraphProblem& problem, const ShortestPath& found,
+                       const std::string& path);
 
 }  // namespace switchyard::cli

@@ -15,8 +15,10 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   int code = kAnswered;
   AddSolveCommand(app, code);
+  AddPlanCommand(app, code);
   AddPluginsCommand(app, code);
   AddConvertCommand(app, code);
+  AddGenerateCommand(app, code);
   try {
     app.parse(argc, argv);
     return code;

@@ -27,7 +27,6 @@ void SolveOptions::AddTo(CLI::App& command) {
   command.add_option("--json", json, "Write result/1 to this file; - is standard output");
   command.add_option("--solution", solution, "Write values and duals by name, as JSON");
   command.add_option("--log", log, "Write the backend's log to this file");
-  command.add_option("--dump", dump, "Write the lowered problem, for a bug report");
   command.add_option("--plugin", plugins, "Load this module too (repeatable)")->take_all();
   command.add_flag("--quiet", quiet, "No progress, and no answer in words");
   command.add_flag("--explain", explain, "Say which backends could serve, and which one does");
