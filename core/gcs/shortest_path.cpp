@@ -362,6 +362,11 @@ void Search::SolvePath(const std::int32_t* arcs, std::int32_t count, const sy_co
 }
 
 void Search::Hear(const std::int32_t* arcs, std::int32_t count, const sy_result& result) {
+  if (count == 0) {
+    answer_.relaxation_seconds = result.seconds;
+    answer_.subsolvers = {result.text};
+    return;
+  }
   RoundedPath path;
   path.edges = EdgesOf(arcs, count);
   path.cost = result.objective;

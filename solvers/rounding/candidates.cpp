@@ -120,6 +120,48 @@ class Solving {
 
 }  // namespace
 
+namespace {
+
+/// The path of the largest product of its arcs' parts of the flows out of their tails: a shortest
+/// one where an arc's length is -log of its part. None where arcs above the tolerance hold no path.
+std::vector<std::int32_t> MostProbablePath(const PathProblem& whole,
+                                           const std::vector<double>& flow, double tolerance) {
+  const Arcs& arcs = whole.arcs();
+  const sy_paths& paths = whole.paths();
+  std::vector<double> through(static_cast<std::size_t>(arcs.num_vertices), 0.0);
+  for (std::size_t a = 0; a < arcs.size(); ++a) {
+    if (flow[a] > tolerance) through[static_cast<std::size_t>(arcs.tail[a])] += flow[a];
+  }
+  std::vector<double> length(arcs.size(), kInfinity);
+  for (std::size_t a = 0; a < arcs.size(); ++a) {
+    if (!(flow[a] > tolerance)) continue;
+    length[a] = std::max(0.0, -std::log(flow[a] / through[static_cast<std::size_t>(arcs.tail[a])]));
+  }
+  const std::vector<double> distance = Distances(arcs, whole.out(), length, paths.source);
+  const Leaving in(Reversed(arcs));
+  std::vector<std::int32_t> path;
+  std::vector<std::uint8_t> seen(through.size(), 0);  // arcs of length 0 may form a cycle
+  for (std::int32_t v = paths.target; v != paths.source;) {
+    seen[static_cast<std::size_t>(v)] = 1;
+    std::int32_t best = -1;
+    double best_distance = kInfinity;
+    for (const std::int32_t a : in.Of(v)) {
+      const auto u = static_cast<std::size_t>(arcs.tail[static_cast<std::size_t>(a)]);
+      const double d = distance[u] + length[static_cast<std::size_t>(a)];
+      if (seen[u] != 0 || !(d < best_distance)) continue;
+      best = a;
+      best_distance = d;
+    }
+    if (best < 0) return {};
+    path.push_back(best);
+    v = arcs.tail[static_cast<std::size_t>(best)];
+  }
+  std::reverse(path.begin(), path.end());
+  return path;
+}
+
+}  // namespace
+
 std::vector<Candidate> SampleCandidates(const PathProblem& whole, const std::vector<double>& x,
                                         const Options& options, std::uint64_t seed) {
   const sy_paths& paths = whole.paths();
@@ -130,6 +172,13 @@ std::vector<Candidate> SampleCandidates(const PathProblem& whole, const std::vec
   std::vector<Candidate> candidates;
   std::set<std::vector<std::int32_t>> known;
   Random random(seed);
+  if (options.paths > 0) {  // the likeliest draw is worth a try, drawn or not
+    std::vector<std::int32_t> likeliest = MostProbablePath(whole, flow, options.flow_tolerance);
+    if (!likeliest.empty()) {
+      known.insert(likeliest);
+      candidates.emplace_back().path = std::move(likeliest);
+    }
+  }
   for (int trial = 0; trial < options.trials; ++trial) {
     if (candidates.size() >= static_cast<std::size_t>(options.paths)) break;
     auto path = SamplePath(whole.arcs(), whole.out(), flow, options.flow_tolerance, paths.source,

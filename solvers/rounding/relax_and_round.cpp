@@ -55,6 +55,24 @@ class Run {
     relaxation_seconds_ = budget_.Seconds() - begin;
     if (relaxed_.dual != SY_CERTIFICATE) bound_ = ProvenBound(p_, relaxed_, kInfinity);
     budget_.Tell(kNaN, bound_, nullptr);
+    TellRelaxation();
+  }
+
+  void TellRelaxation() const {
+    const sy_paths& paths = whole_.paths();
+    if (paths.tried == nullptr) return;
+    std::string text = relaxation_id_;
+    sy_result told{};
+    told.size = sizeof told;
+    told.termination = relaxed_.termination;
+    told.objective = kNaN;
+    told.relaxed = IsPoint(relaxed_.primal) ? Objective(p_, relaxed_.x.data()) : kNaN;
+    told.bound = bound_;
+    told.iterations = relaxed_.iterations;
+    told.seconds = relaxation_seconds_;
+    told.text = text.data();
+    told.text_size = text.size() + 1;
+    paths.tried(paths.context, nullptr, 0, &told);
   }
 
   /// The answer where the relaxation leaves nothing to round. What a limit or numerical trouble

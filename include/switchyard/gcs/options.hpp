@@ -9,7 +9,7 @@
 namespace switchyard {
 
 /// How many threads at most: of one, of all that the process may use, or of a number.
-class Parallelism {
+class SWITCHYARD_EXPORT Parallelism {
  public:
   Parallelism() = default;  // one
   explicit Parallelism(int num_threads) : num_threads_(num_threads < 1 ? 1 : num_threads) {}
