@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "switchyard/io/graph.hpp"
 #include "switchyard/io/read.hpp"
 #include "switchyard/io/write.hpp"
 #include "tests/io/same_program.hpp"
@@ -21,6 +22,7 @@ namespace {
 }
 
 bool IsPlaceOf(const FileError& error, std::string_view text) {
+  if (error.line() == 0) return error.pointer().empty() || error.pointer()[0] == '/';
   const auto lines = 1 + std::count(text.begin(), text.end(), '\n');
   return error.line() >= 1 && error.line() <= lines && error.column() >= 1 &&
          static_cast<std::size_t>(error.column()) <= text.size() + 1;
@@ -37,6 +39,21 @@ bool SaysItIsAnother(const std::vector<std::string>& notes) {
 
 }  // namespace
 
+void ReadGraphThereAndBack(const std::uint8_t* data, std::size_t size) {
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  GraphProblem problem;
+  try {
+    problem = ReadGraphText(text, "file");
+  } catch (const FileError& error) {
+    if (!IsPlaceOf(error, text)) Fail(std::string("no place of the file: ") + error.what(), text);
+    return;
+  }
+  const std::string written = GraphText(problem);
+  if (GraphText(ReadGraphText(written, "written")) != written) {
+    Fail("read, written, read: another graph\n" + written, text);
+  }
+}
+
 void ReadThereAndBack(const std::uint8_t* data, std::size_t size, FileFormat format) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   std::vector<std::string> notes;
@@ -52,6 +69,9 @@ void ReadThereAndBack(const std::uint8_t* data, std::size_t size, FileFormat for
   const std::string written = ProgramText(*program, format, &notes);
   if (SaysItIsAnother(notes)) return;
   const auto again = ReadProgramText(written, "written", {.format = format});
+  if (format == FileFormat::kJson && ProgramText(*again, format) != written) {
+    Fail("read, written, read: another text\n" + written, text);
+  }
   const std::string difference = testing::Difference(*program, *again);
   if (!difference.empty()) Fail("read, written, read: " + difference + "\n" + written, text);
 }

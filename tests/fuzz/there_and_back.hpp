@@ -13,4 +13,7 @@ namespace switchyard::fuzz {
 /// Aborts, with a sentence, where that does not hold.
 void ReadThereAndBack(const std::uint8_t* data, std::size_t size, FileFormat format);
 
+/// The same of gcs/1.
+void ReadGraphThereAndBack(const std::uint8_t* data, std::size_t size);
+
 }  // namespace switchyard::fuzz
