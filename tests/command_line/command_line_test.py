@@ -399,12 +399,12 @@ class Plugins(CommandLine):
     def test_help_has_an_example_for_every_command(self):
         whole = self.expect(self.run_program("--help"), ANSWERED).stdout
         self.assertIn("Example: switchyard", whole)
-        for command in (("solve",), ("convert",), ("plugins",), ("plugins", "list"),
-                        ("plugins", "describe"), ("plugins", "doctor")):
+        for command in (("solve",), ("plan",), ("generate",), ("convert",), ("plugins",),
+                        ("plugins", "list"), ("plugins", "describe"), ("plugins", "doctor")):
             with self.subTest(command=command):
                 text = self.expect(self.run_program(*command, "--help"), ANSWERED).stdout
                 self.assertIn("Example: switchyard " + " ".join(command), text)
-        for absent in ("plan", "check-plugin", "generate", "bench"):
+        for absent in ("check-plugin", "bench"):
             self.assertNotRegex(whole, rf"(?m)^ +{absent}\b")
         version = self.expect(self.run_program("--version"), ANSWERED).stdout
         self.assertRegex(version, r"^switchyard \d+\.\d+\.\d+\n$")

@@ -87,6 +87,7 @@ std::string Joined(const std::vector<std::string>& words) {
 }
 
 std::string ProblemClasses(const sy_solver& solver) {
+  if ((solver.traits & SY_STRATEGY) != 0) return "a strategy over other backends";
   std::vector<std::string> classes;
   const auto add = [&](std::uint64_t accepts, std::uint64_t cones, const std::string& prefix) {
     const auto has = [&](std::int32_t kind) { return (cones >> kind & 1) != 0; };

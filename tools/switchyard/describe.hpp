@@ -17,7 +17,8 @@ std::vector<std::string> UpdateWords(std::uint64_t updates);
 
 std::string Joined(const std::vector<std::string>& words);
 
-/// "LP, QP, SOCP, SDP, MILP, ...": the classes that these sections make.
+/// "LP, QP, SOCP, SDP, MILP, ...": the classes that these sections make. Those of a strategy are
+/// what serves underneath.
 std::string ProblemClasses(const sy_solver& solver);
 
 /// "integer 0 to 100, 10 unless set".

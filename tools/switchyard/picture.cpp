@@ -311,8 +311,7 @@ std::string Picture(const GraphProblem& problem, const ShortestPath& found) {
   svg += Flows(*problem.graph, scene, view, found);
   svg += Path(found, view);
   svg += EndMarks(problem, scene, view, found);
-  svg += Legend(problem, scene, found, top);
-  return svg + "</svg>\n";
+  return svg + "<g>\n" + Legend(problem, scene, found, top) + "</g>\n</svg>\n";
 }
 
 void WritePicture(const GraphProblem& problem, const ShortestPath& found, const std::string& path) {

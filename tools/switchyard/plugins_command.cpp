@@ -38,9 +38,9 @@ Json ListAsJson(const Host& host) {
 void List(const Host& host) {
   for (const Backend* backend : host.backends()) {
     const Readiness ready = host.Ready(*backend);
-    std::cout << fmt::format("{:<12} {:<10} {:<9} {}\n", backend->short_name, ready.version,
+    std::cout << fmt::format("{:<16} {:<10} {:<9} {}\n", backend->short_name, ready.version,
                              ready.ready ? "ready" : "not ready", ProblemClasses(backend->facts));
-    if (!ready.ready) std::cout << fmt::format("{:<12} {}\n", "", ready.text);
+    if (!ready.ready) std::cout << fmt::format("{:<16} {}\n", "", ready.text);
   }
   if (host.backends().empty()) std::cout << "no backend was found in\n";
   for (const std::string& folder : host.folders()) {
