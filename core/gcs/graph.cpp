@@ -140,7 +140,7 @@ GraphOfConvexSets::Vertex* GraphOfConvexSets::AddVertex(std::shared_ptr<const Co
                                                         std::string name) {
   Require(set != nullptr, "a vertex needs a set, got a null pointer");
   const VertexId id{next_vertex_++};
-  if (name.empty()) name = "v" + std::to_string(id.value);
+  if (name.empty()) name = Text("v", id.value);
   std::unique_ptr<Vertex> vertex(new Vertex(id, std::move(set), std::move(name)));
   return vertices_.emplace_hint(vertices_.end(), id, std::move(vertex))->second.get();
 }

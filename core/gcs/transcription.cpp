@@ -18,7 +18,7 @@ GcsTranscription::GcsTranscription(const PrunedGraph& graph, Transcription as)
   block_ = -1;
   WriteCoupling();
   CloseBlock();
-  problem_ = Problem(builder_.Finish());
+  problem_ = Problem(builder_.FinishOnce());
   WriteHints();
 }
 

@@ -385,15 +385,17 @@ sy_solver Facade::Table(const FacadeContext& context) {
       const auto& at = *static_cast<const FacadeContext*>(self->context);
       Forwarding([&] {
         const sy_solver& backend = at.backend->facts;
-        const BridgePlan plan = PlanFor(plugin::Whole(*problem), *at.backend);
+        const sy_problem given = plugin::Whole(*problem);
+        const BridgePlan plan = PlanFor(given, *at.backend);
+        const auto ask = [&](const sy_problem& image) {
+          if (backend.supports == nullptr) return;
+          Call(backend, "supports", backend.supports, at.backend->table, host, &image);
+        };
         const bool may_throw = std::any_of(plan.begin(), plan.end(),
                                            [](const BridgeKind* kind) { return kind->may_throw; });
+        if (plan.empty()) return ask(given);
         if (backend.supports == nullptr && !may_throw) return;  // no need of the image
-        const Problem whole(plugin::Whole(*problem));
-        const BridgeChain chain(whole, plan);
-        if (backend.supports == nullptr) return;
-        const sy_problem& given = chain.empty() ? whole.view() : chain.image().view();
-        Call(backend, "supports", backend.supports, at.backend->table, host, &given);
+        ask(BridgeChain(Problem(given), plan).image().view());
       });
     });
   };

@@ -54,6 +54,13 @@ const Csc& TripletMatrix::Seal(std::int32_t rows, std::int32_t cols) {
   return matrix_;
 }
 
+Csc TripletMatrix::SealOnce(std::int32_t rows, std::int32_t cols) {
+  Seal(rows, cols);
+  Csc matrix = std::move(matrix_);
+  *this = TripletMatrix();
+  return matrix;
+}
+
 bool TripletMatrix::InOrder() const {
   for (std::size_t k = 1; k < col_.size(); ++k) {
     const bool follows = col_[k] > col_[k - 1] || (col_[k] == col_[k - 1] && row_[k] > row_[k - 1]);
@@ -108,11 +115,26 @@ std::int32_t ProblemBuilder::AddCone(const sy_cone& cone) {
 ProblemData ProblemBuilder::Finish() {
   const auto vars = static_cast<std::int32_t>(q.size());
   ProblemData d;
-  d.num_vars = vars;
-  d.flags = flags;
   d.P = P.Seal(vars, vars);
   d.A = A.Seal(static_cast<std::int32_t>(row_lower.size()), vars);
   d.F = F.Seal(static_cast<std::int32_t>(g.size()), vars);
+  TakeVectors(d);
+  return d;
+}
+
+ProblemData ProblemBuilder::FinishOnce() {
+  const auto vars = static_cast<std::int32_t>(q.size());
+  ProblemData d;
+  d.P = P.SealOnce(vars, vars);
+  d.A = A.SealOnce(static_cast<std::int32_t>(row_lower.size()), vars);
+  d.F = F.SealOnce(static_cast<std::int32_t>(g.size()), vars);
+  TakeVectors(d);
+  return d;
+}
+
+void ProblemBuilder::TakeVectors(ProblemData& d) {
+  d.num_vars = static_cast<std::int32_t>(q.size());
+  d.flags = flags;
   d.q = std::move(q);
   d.offset = offset;
   if (!AllInfinite(x_lower, x_upper)) {
@@ -126,7 +148,6 @@ ProblemData ProblemBuilder::Finish() {
   d.row_upper = std::move(row_upper);
   d.g = std::move(g);
   d.cones = std::move(cones);
-  return d;
 }
 
 void ProblemBuilder::Rewrite() {

@@ -26,6 +26,8 @@ class TripletMatrix {
 
   /// Sorts what was written; from here on the pattern stands.
   const Csc& Seal(std::int32_t rows, std::int32_t cols);
+  /// The same for a matrix that is written once: moved out, all else given back.
+  Csc SealOnce(std::int32_t rows, std::int32_t cols);
   /// All numbers 0: a second writing follows.
   void Rewrite();
   /// Did the writing since Rewrite() follow the first to the end?
@@ -74,10 +76,15 @@ class ProblemBuilder {
 
   /// The problem. A section in which nothing was said is absent.
   [[nodiscard]] ProblemData Finish();
+  /// The same of a builder that is used once: without a second copy of a matrix.
+  [[nodiscard]] ProblemData FinishOnce();
   /// Clears all but the patterns.
   void Rewrite();
   /// After a second writing: were all patterns those of the first?
   [[nodiscard]] bool SamePatterns() const { return P.same() && A.same() && F.same(); }
+
+ private:
+  void TakeVectors(ProblemData& d);
 };
 
 }  // namespace switchyard

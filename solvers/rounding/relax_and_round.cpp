@@ -25,6 +25,7 @@ class Run {
 
   void Solve() {
     if (!TargetIsReached()) return Finish(SY_INFEASIBLE, "no arcs lead from source to target");
+    if (budget_.Stopped()) return Finish(budget_.reason(), "");
     Relax();
     if (const auto end = EndOfRelaxation()) return Finish(*end, "");
     candidates_ = SampleCandidates(whole_, relaxed_.x, options_, budget_.control().seed);
