@@ -19,31 +19,12 @@ SVG = "{http://www.w3.org/2000/svg}"
 LINEAR = ("highs", "clp", "clarabel")  # with duals, so that a bound is proven
 PLAN_FIELDS = FIELDS | {"relaxation", "path", "edges", "points", "rounded", "pruned", "gap"}
 
-# From a point over a triangle or an ellipse, whichever is the shorter way, to a point: the triangle
-# touches the straight line at (2, 0), the ellipse is above it.
-CHOICE = {
-    "format": "gcs/1", "name": "choice", "problem": "shortest_path", "directed": True,
-    "source": 0, "target": 3,
-    "matrices": {"difference": {"rows": 2, "cols": 4,
-                                "entries": [[0, 0, -1], [0, 2, 1], [1, 1, -1], [1, 3, 1]]},
-                 "triangle": {"rows": 3, "cols": 2,
-                              "entries": [[0, 0, -1], [0, 1, 1], [1, 0, 1], [1, 1, 1],
-                                          [2, 1, -1]]}},
-    "functions": {"length": {"type": "l2_norm", "A": "difference", "b": [0, 0]},
-                  "steps": {"type": "l1_norm", "A": "difference", "b": [0, 0]}},
-    "constraints": {},
-    "sets": {"start": {"type": "point", "x": [0, 0]}, "goal": {"type": "point", "x": [4, 0]},
-             "below": {"type": "hpolyhedron", "A": "triangle", "b": [-2, 2, 2]},
-             "above": {"type": "hyperellipsoid", "center": [2, 2], "A": [[1, 0], [0, 2]]}},
-    "vertices": [{"name": "start", "set": "start", "costs": []},
-                 {"name": "below", "set": "below", "costs": []},
-                 {"name": "above", "set": "above", "costs": []},
-                 {"name": "goal", "set": "goal", "costs": []}],
-    "edges": [{"tail": u, "head": v, "costs": ["length"], "constraints": []}
-              for u, v in ((0, 2), (2, 3), (0, 1), (1, 3))]}
-
-
 class Planning(CommandLine):
+    @property
+    def choice(self):
+        """From start over a triangle or an ellipse to goal; the triangle meets the straight line."""
+        return json.loads((self.source / "examples" / "graphs" / "choice.json").read_text())
+
     def generate(self, family, *arguments):
         path = self.folder / f"{family}.json"
         self.expect(self.run_program("generate", family, *arguments, "-o", path), ANSWERED)
@@ -55,7 +36,7 @@ class Planning(CommandLine):
         return json.loads(done.stdout)
 
     def changed(self, **fields):
-        return self.file("changed.json", json.dumps(CHOICE | fields))
+        return self.file("changed.json", json.dumps(self.choice | fields))
 
 
 def boxes(graph):
@@ -218,15 +199,15 @@ class Paths(Planning):
 class Refusals(Planning):
     def test_no_way_is_an_answer(self):
         self.any_of(*LINEAR)
-        path = self.changed(edges=CHOICE["edges"][:1])
+        path = self.changed(edges=self.choice["edges"][:1])
         result = self.plan(path)
         self.assertEqual(result["termination"], "infeasible")
         self.assertEqual(result["message"], "no path of edges leads from start to goal")
         self.assertNotIn("path", result)
 
     def test_bad_files_are_refused_with_the_place(self):
-        sets = dict(CHOICE["sets"])
-        edges = [dict(edge) for edge in CHOICE["edges"]]
+        sets = self.choice["sets"]
+        edges = [dict(edge) for edge in self.choice["edges"]]
         edges[1]["costs"] = ["lenght"]
         for fields, said in (({"target": 9}, "/target: "),
                              ({"edges": edges}, "/edges/1/costs/0: "),

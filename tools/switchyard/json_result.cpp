@@ -129,7 +129,8 @@ void WritePlanResult(const GraphProblem& problem, const ShortestPath& found,
     if (!tried.reason.empty()) one["reason"] = tried.reason;
     json["rounded"].push_back(std::move(one));
   }
-  json["pruned"] = {{"edges_before", found.edges_before}, {"edges_after", found.edges_after}};
+  json["pruned"] = {{"edges_before", problem.graph->num_edges()},
+                    {"edges_after", found.edges_after}};
   Write(json, path);
 }
 

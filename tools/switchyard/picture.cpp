@@ -24,7 +24,9 @@ constexpr double kWidth = 912;   // of the drawing, at most
 constexpr double kHeight = 760;  // likewise
 constexpr double kLegendWidth = 560;
 constexpr double kLine = 20;          // from line to line of the legend
-constexpr double kFlowWidth = 7;      // of a flow of 1
+constexpr double kFlowWidth = 7;      // of a flow of 1, at most
+constexpr double kPathWidth = 3;      // at most
+constexpr double kDot = 3.5;          // radius of a point of the path, at most
 constexpr double kLeastFlow = 1e-3;   // less is no line
 constexpr std::size_t kNamed = 1000;  // sets at most whose names show under the pointer
 
@@ -32,8 +34,8 @@ constexpr std::size_t kNamed = 1000;  // sets at most whose names show under the
 constexpr const char* kStyle =
     ".s{fill:#dfe7ef;fill-opacity:.6;stroke:#9fadba;stroke-width:.7}"
     ".f{fill:none;stroke:#56b4e9;stroke-opacity:.75;stroke-linecap:round}"
-    ".p{fill:none;stroke:#d55e00;stroke-width:3;stroke-linejoin:round;stroke-linecap:round}"
-    ".d{fill:#d55e00;stroke:#fff;stroke-width:.8}"
+    ".p{fill:none;stroke:#d55e00;stroke-linejoin:round;stroke-linecap:round}"
+    ".d{fill:#d55e00;stroke:#fff;stroke-width:.8}.e{fill:#d55e00}"
     ".a{fill:#009e73;stroke:#fff;stroke-width:1.5}"
     ".b{fill:#222;stroke:#fff;stroke-width:1.5}"
     "text{font:13px sans-serif;fill:#222}.t{font-weight:bold}";
@@ -86,6 +88,12 @@ class View {
   }
   [[nodiscard]] double scale() const { return scale_; }
   [[nodiscard]] const Vector2d& size() const { return size_; }
+  /// The share of `most` that fits where `count` sets share the drawing.
+  [[nodiscard]] double Fitting(double most, int count) const {
+    constexpr double kPlenty = 20;  // pixels of a set across
+    const double across = std::sqrt(size_[0] * size_[1] / std::max(count, 1));
+    return most * std::min(1.0, across / kPlenty);
+  }
 
  private:
   Vector2d lower_;
@@ -166,9 +174,10 @@ std::array<Vector2d, 2> Ends(const Edge& edge, double flow, const Scene& scene,
   return {scene.outlines.at(&edge.u()).Center(), scene.outlines.at(&edge.v()).Center()};
 }
 
-/// Lines of equal width stand in one path: a picture of many thousand edges stays small.
+/// `most` is the width of a flow of 1. Lines of equal width stand in one path: a picture of many
+/// thousand edges stays small.
 std::string Flows(const GraphOfConvexSets& graph, const Scene& scene, const View& view,
-                  const ShortestPath& found) {
+                  const ShortestPath& found, double most) {
   constexpr int kWidths = 20;
   std::array<std::string, kWidths + 1> lines;
   const std::vector<const Edge*> edges = graph.Edges();
@@ -183,15 +192,17 @@ std::string Flows(const GraphOfConvexSets& graph, const Scene& scene, const View
   std::string svg;
   for (std::size_t k = 1; k < lines.size(); ++k) {
     if (lines[k].empty()) continue;
-    const double width = kFlowWidth * static_cast<double>(k) / kWidths;
+    const double width = most * static_cast<double>(k) / kWidths;
     svg +=
         fmt::format("<path class=\"f\" stroke-width=\"{}\" d=\"{}\"/>\n", Tenths(width), lines[k]);
   }
   return svg;
 }
 
-std::string Path(const ShortestPath& found, const View& view) {
+std::string Path(const ShortestPath& found, int num_vertices, const View& view) {
   if (found.points.empty()) return "";
+  const double radius = view.Fitting(kDot, num_vertices);
+  const char* kind = radius < kDot ? "e" : "d";  // a small dot has no room for a ring
   std::string line;
   std::string dots;
   for (const Eigen::VectorXd& x : found.points) {
@@ -199,11 +210,11 @@ std::string Path(const ShortestPath& found, const View& view) {
     if (!p.allFinite()) continue;
     line += (line.empty() ? "M" : "L") + view.At(p);
     const Vector2d at = view(p);
-    constexpr std::size_t kFew = 60;
-    dots += fmt::format("<circle class=\"d\" cx=\"{}\" cy=\"{}\" r=\"{}\"/>", Tenths(at[0]),
-                        Tenths(at[1]), found.points.size() <= kFew ? "3.5" : "2");
+    dots += fmt::format("<circle class=\"{}\" cx=\"{}\" cy=\"{}\" r=\"{}\"/>", kind, Tenths(at[0]),
+                        Tenths(at[1]), Tenths(radius));
   }
-  return fmt::format("<path class=\"p\" d=\"{}\"/>\n{}\n", line, dots);
+  return fmt::format("<path class=\"p\" stroke-width=\"{}\" d=\"{}\"/>\n{}\n",
+                     Tenths(view.Fitting(kPathWidth, num_vertices)), line, dots);
 }
 
 std::string Circle(const Vector2d& at) {
@@ -234,12 +245,12 @@ std::string EndMarks(const GraphProblem& problem, const Scene& scene, const View
 std::string Numbers(const ShortestPath& found) {
   const MathematicalProgramResult& r = found.result;
   std::string text(to_string(r.termination));
-  const auto add = [&](const char* name, double value) {
-    if (std::isfinite(value)) text += fmt::format("  ·  {} {:.6g}", name, value);
+  const auto add = [&](const char* name, double value, int digits = 6) {
+    if (std::isfinite(value)) text += fmt::format("  ·  {} {:.{}g}", name, value, digits);
   };
   if (!found.points.empty()) add("cost", r.objective);
   add("bound", r.bound);
-  if (!found.points.empty()) add("gap", r.gap());
+  if (!found.points.empty()) add("gap", r.gap(), 2);
   add("relaxation", found.relaxation_cost);
   return text;
 }
@@ -254,7 +265,7 @@ std::string Backend(const ShortestPath& found) {
 
 /// Lines of text below the drawing, and a key to its marks.
 std::string Legend(const GraphProblem& problem, const Scene& scene, const ShortestPath& found,
-                   double top) {
+                   double flow_width, double top) {
   double y = top;
   std::string svg;
   const auto line = [&](const std::string& text, const char* kind = "") {
@@ -278,12 +289,13 @@ std::string Legend(const GraphProblem& problem, const Scene& scene, const Shorte
   const auto dash = [&](const char* style) {
     return fmt::format("<path {} d=\"M{} {}h18\"/>", style, x - 10, Tenths(y - 4.5));
   };
-  if (!found.points.empty()) key(dash("class=\"p\""), "path", 75);
+  if (!found.points.empty()) key(dash("class=\"p\" stroke-width=\"3\""), "path", 75);
   if (!found.relaxed_flow.empty()) {
+    const std::string flow = fmt::format("class=\"f\" stroke-width=\"{}\"", Tenths(flow_width));
     const char* text = found.points.empty()
                            ? "relaxed flow, its points; so wide for 1"
                            : "relaxed flow, from middle to middle of the sets; so wide for 1";
-    key(dash("class=\"f\" stroke-width=\"7\""), text, 0);
+    key(dash(flow.c_str()), text, 0);
   }
   y += kLine;
   const bool plane =
@@ -307,11 +319,12 @@ std::string Picture(const GraphProblem& problem, const ShortestPath& found) {
       "viewBox=\"0 0 {0:.0f} {1:.0f}\">\n<style>{2}</style>\n"
       "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n",
       width, height, kStyle);
+  const double flow_width = view.Fitting(kFlowWidth, problem.graph->num_vertices());
   svg += Sets(*problem.graph, scene, view);
-  svg += Flows(*problem.graph, scene, view, found);
-  svg += Path(found, view);
+  svg += Flows(*problem.graph, scene, view, found, flow_width);
+  svg += Path(found, problem.graph->num_vertices(), view);
   svg += EndMarks(problem, scene, view, found);
-  return svg + "<g>\n" + Legend(problem, scene, found, top) + "</g>\n</svg>\n";
+  return svg + "<g>\n" + Legend(problem, scene, found, flow_width, top) + "</g>\n</svg>\n";
 }
 
 void WritePicture(const GraphProblem& problem, const ShortestPath& found, const std::string& path) {

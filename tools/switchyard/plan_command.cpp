@@ -87,7 +87,7 @@ GraphOfConvexSetsOptions ForSearch(const PlanOptions& options, const SolverInter
   return search;
 }
 
-/// "a, b, c, ... 40 more ..., x, y, z (46 vertices)".
+/// "a b c d ... 38 more ... w x y z (46)": how many vertices it has stands last.
 std::string PathInWords(const GraphProblem& problem, const ShortestPath& found) {
   std::vector<std::string> names{problem.source->name()};
   for (const auto* edge : found.edges) names.push_back(edge->v().name());
@@ -101,7 +101,7 @@ std::string PathInWords(const GraphProblem& problem, const ShortestPath& found) 
     }
     text += (i == 0 ? "" : " ") + names[i];
   }
-  return fmt::format("{} ({} vertices)", text, names.size());
+  return fmt::format("{} ({})", text, names.size());
 }
 
 std::string RoundedInWords(const ShortestPath& found) {
@@ -134,7 +134,8 @@ void SayInWords(const GraphProblem& problem, const ShortestPath& found) {
   if (!r.solver.empty()) std::cout << fmt::format(" by {} {}", r.solver, r.solver_version);
   for (const std::string& one : found.subsolvers) std::cout << ", " << one;
   std::cout << fmt::format("\ngraph      {} vertices, {} edges, {} after pruning\n",
-                           problem.graph->num_vertices(), found.edges_before, found.edges_after);
+                           problem.graph->num_vertices(), problem.graph->num_edges(),
+                           found.edges_after);
   const auto line = [](const char* name, double value, int digits) {
     if (!std::isnan(value)) std::cout << fmt::format("{:<10} {:.{}g}\n", name, value, digits);
   };
