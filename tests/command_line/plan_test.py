@@ -22,7 +22,7 @@ PLAN_FIELDS = FIELDS | {"relaxation", "path", "edges", "points", "rounded", "pru
 class Planning(CommandLine):
     @property
     def choice(self):
-        """From start over a triangle or an ellipse to goal; the triangle meets the straight line."""
+        """From start over a triangle or an ellipse to goal; the triangle is on the line."""
         return json.loads((self.source / "examples" / "graphs" / "choice.json").read_text())
 
     def generate(self, family, *arguments):

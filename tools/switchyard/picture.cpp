@@ -82,9 +82,10 @@ class View {
     const Vector2d at = (p - lower_) * scale_;
     return {left_ + at[0], kMargin + size_[1] - at[1]};
   }
-  [[nodiscard]] std::string At(const Vector2d& p) const {
+  /// To the data of a path: "M" moves there, "L" draws a line there.
+  void Append(char command, const Vector2d& p, std::string& data) const {
     const Vector2d at = (*this)(p);
-    return Tenths(at[0]) + " " + Tenths(at[1]);
+    data += fmt::format("{}{} {}", command, Tenths(at[0]), Tenths(at[1]));
   }
   [[nodiscard]] double scale() const { return scale_; }
   [[nodiscard]] const Vector2d& size() const { return size_; }
@@ -142,7 +143,7 @@ std::string Shape(const Outline& outline, const View& view) {
         Tenths(at[1]), Tenths(-e.angle));
   }
   std::string path;
-  for (const Vector2d& p : outline.corners) path += (path.empty() ? "M" : "L") + view.At(p);
+  for (const Vector2d& p : outline.corners) view.Append(path.empty() ? 'M' : 'L', p, path);
   return fmt::format(R"(<path class="s" d="{}Z")", path);
 }
 
@@ -187,7 +188,9 @@ std::string Flows(const GraphOfConvexSets& graph, const Scene& scene, const View
     const auto [from, to] = Ends(*edges[e], flow, scene, found);
     if (!from.allFinite() || !to.allFinite()) continue;
     const double step = std::ceil(std::min(flow, 1.0) * kWidths - kLeastFlow);
-    lines[static_cast<std::size_t>(std::max(step, 1.0))] += "M" + view.At(from) + "L" + view.At(to);
+    std::string& data = lines[static_cast<std::size_t>(std::max(step, 1.0))];
+    view.Append('M', from, data);
+    view.Append('L', to, data);
   }
   std::string svg;
   for (std::size_t k = 1; k < lines.size(); ++k) {
@@ -208,7 +211,7 @@ std::string Path(const ShortestPath& found, int num_vertices, const View& view) 
   for (const Eigen::VectorXd& x : found.points) {
     const Vector2d p = Shadow(x);
     if (!p.allFinite()) continue;
-    line += (line.empty() ? "M" : "L") + view.At(p);
+    view.Append(line.empty() ? 'M' : 'L', p, line);
     const Vector2d at = view(p);
     dots += fmt::format("<circle class=\"{}\" cx=\"{}\" cy=\"{}\" r=\"{}\"/>", kind, Tenths(at[0]),
                         Tenths(at[1]), Tenths(radius));
