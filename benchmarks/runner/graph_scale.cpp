@@ -65,8 +65,9 @@ int main(int argc, char** argv) {
   std::vector<int> sizes;
   for (int i = 1; i < argc; ++i) sizes.push_back(std::atoi(argv[i]));
   if (sizes.empty()) sizes = {10, 20, 50, 100, 200, 250};
-  std::cout << fmt::format("{:>6} {:>8} {:>9} {:>9} {:>9} {:>9} {:>8} {:>8} {:>12}\n", "size", "edges",
-                           "build s", "prune s", "lower s", "total s", "graph MB", "peak MB", "us per edge");
+  std::cout << fmt::format("{:>6} {:>8} {:>9} {:>9} {:>9} {:>9} {:>8} {:>8} {:>12}\n", "size",
+                           "edges", "build s", "prune s", "lower s", "total s", "graph MB",
+                           "peak MB", "us per edge");
   for (const int size : sizes) {
     const auto start = std::chrono::steady_clock::now();
     const Built built = Build(size);
@@ -80,9 +81,9 @@ int main(int argc, char** argv) {
     const double prune = found.result.seconds.presolve;
     const double lower = found.result.seconds.lower;
     const int edges = built.graph->num_edges();
-    std::cout << fmt::format(
-        "{:6} {:8} {:9.3f} {:9.3f} {:9.3f} {:9.3f} {:8.0f} {:8.0f} {:12.2f}\n", size, edges, build,
-        prune, lower, build + prune + lower, graph_megabytes, PeakMegabytes(),
-        1e6 * (build + prune + lower) / edges);
+    std::cout << fmt::format("{:6} {:8} {:9.3f} {:9.3f} {:9.3f} {:9.3f} {:8.0f} {:8.0f} {:12.2f}\n",
+                             size, edges, build, prune, lower, build + prune + lower,
+                             graph_megabytes, PeakMegabytes(),
+                             1e6 * (build + prune + lower) / edges);
   }
 }

@@ -1,8 +1,8 @@
 // min 1/2 x'Px + q'x becomes min t + q'x with 2 t 1 >= |Sx|^2, P = S'S: a variable t and a rotated
 // cone (t, 1, Sx) behind all others.
 //
-// At a solution the cone's dual is (1, t, -Sx), so S'(-Sx) = -Px stands where Px stood, and the other
-// duals pass as they are.
+// At a solution the cone's dual is (1, t, -Sx), so S'(-Sx) = -Px stands where Px stood, and the
+// other duals pass as they are.
 #include <cmath>
 
 #include "core/bridges/bridges.hpp"

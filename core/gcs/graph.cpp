@@ -177,8 +177,7 @@ void GraphOfConvexSets::RemoveEdge(Edge* edge) {
   edges_.erase(edge->id());
 }
 
-const GraphOfConvexSets::Vertex* GraphOfConvexSets::GetVertexByName(
-    const std::string& name) const {
+const GraphOfConvexSets::Vertex* GraphOfConvexSets::GetVertexByName(const std::string& name) const {
   for (const auto& [id, vertex] : vertices_) {
     if (vertex->name() == name) return vertex.get();
   }

@@ -98,8 +98,8 @@ void SetPathPoint(const GraphOfConvexSets& graph, const PathPoints& path,
   for (const Vertex* v : graph.Vertices()) {
     const auto found = point.find(v);
     const int n = v->ambient_dimension();
-    values.SetVertex(*v, found != point.end() ? *found->second
-                                              : Eigen::VectorXd::Constant(n, std::nan("")));
+    values.SetVertex(
+        *v, found != point.end() ? *found->second : Eigen::VectorXd::Constant(n, std::nan("")));
   }
   for (const Edge* e : graph.Edges()) {
     const auto found = place.find(e);
@@ -152,7 +152,8 @@ void SetFlowPoint(const GraphOfConvexSets& graph, const PrunedGraph& pruned,
     }
     values.SetEdge(edge, phi, y, z);
     for (Eigen::Index i = 0; i < edge.slacks().size(); ++i) {
-      values.SetSlack(edge.slacks()[i], slack >= 0 ? x[At(slack) + static_cast<std::size_t>(i)] : 0);
+      values.SetSlack(edge.slacks()[i],
+                      slack >= 0 ? x[At(slack) + static_cast<std::size_t>(i)] : 0);
     }
   }
   for (std::size_t v = 0; v < sum.size(); ++v) {

@@ -22,8 +22,8 @@ PathPoints PathIn(const PrunedGraph& graph, const GcsTranscription& transcriptio
 void SetPathPoint(const GraphOfConvexSets& graph, const PathPoints& path,
                   const MathematicalProgramResult* slacks, MathematicalProgramResult& result);
 
-/// phi, phi x_u and phi x_v of a point of the transcribed problem; x_v = sum_out y / sum_out phi (in
-/// of z at the target) where flow passes.
+/// phi, phi x_u and phi x_v of a point of the transcribed problem; x_v = sum_out y / sum_out phi
+/// (in of z at the target) where flow passes.
 void SetFlowPoint(const GraphOfConvexSets& graph, const PrunedGraph& pruned,
                   const GcsTranscription& transcription, const std::vector<double>& x,
                   MathematicalProgramResult& result);

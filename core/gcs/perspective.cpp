@@ -115,7 +115,8 @@ Perspective PerspectiveOf(const Cost& cost) {
     return Quadratic(*quadratic);
   }
   if (const auto* norm = dynamic_cast<const NormCost*>(&cost)) return Norm(*norm);
-  Refuse(cost.Name(), " has no perspective: a relaxation and a mixed-integer program take linear, "
+  Refuse(cost.Name(),
+         " has no perspective: a relaxation and a mixed-integer program take linear, "
          "convex quadratic and norm costs");
 }
 

@@ -12,8 +12,8 @@
 namespace switchyard {
 
 /// t g(x / t), closed: the minimum of cost'(t, x, w) + |Sx|^2 / (2t) over the w with (t, x, w) in
-/// the cone. Constraints have no cost. The squares stand apart so that an edge writes all of its own
-/// in one rotated cone.
+/// the cone. Constraints have no cost. The squares stand apart so that an edge writes all of its
+/// own in one rotated cone.
 struct Perspective {
   ScaledSet cone;
   std::vector<double> cost;  // of t, x, w; empty: none

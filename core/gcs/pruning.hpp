@@ -24,9 +24,9 @@ struct PrunedGraph {
   }
 };
 
-/// Edges with phi fixed to 0 go, and those at a vertex whose set is proven empty; beside an edge with
-/// phi fixed to 1 the others out of its tail and into its head. With `by_dominators` what no simple
-/// path uses goes too; without, only loops, edges into the source and out of the target.
+/// Edges with phi fixed to 0 go, and those at a vertex whose set is proven empty; beside an edge
+/// with phi fixed to 1 the others out of its tail and into its head. With `by_dominators` what no
+/// simple path uses goes too; without, only loops, edges into the source and out of the target.
 PrunedGraph Prune(const GraphOfConvexSets& graph, const GraphOfConvexSets::Vertex& source,
                   const GraphOfConvexSets::Vertex& target, bool by_dominators);
 

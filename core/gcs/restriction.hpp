@@ -13,8 +13,8 @@ namespace switchyard {
 std::vector<const GraphOfConvexSets::Vertex*> VerticesOf(
     const std::vector<const GraphOfConvexSets::Edge*>& edges);
 
-/// One x for each vertex, its set, and the terms tagged for the restriction, verbatim. A vertex that
-/// the path visits twice has one point.
+/// One x for each vertex, its set, and the terms tagged for the restriction, verbatim. A vertex
+/// that the path visits twice has one point.
 std::unique_ptr<MathematicalProgram> RestrictionOf(
     const std::vector<const GraphOfConvexSets::Vertex*>& vertices,
     const std::vector<const GraphOfConvexSets::Edge*>& edges);

@@ -13,6 +13,7 @@
 #include "core/solve/check.hpp"
 #include "core/solve/choice.hpp"
 #include "core/solve/control.hpp"
+#include "core/solve/dump.hpp"
 #include "core/solve/recovery.hpp"
 #include "switchyard/error.hpp"
 #include "switchyard/plugin.hpp"
@@ -61,6 +62,7 @@ class Search {
   void Solve();
   void Recover();
   void RecoverPath(const PathPoints& path, const MathematicalProgramResult* slacks);
+  void CapRelaxation();
   void RecoverRelaxation();
   void RecoverBestTried();
   [[nodiscard]] bool rounds() const {
@@ -90,6 +92,8 @@ class Search {
   std::unique_ptr<GcsTranscription> transcription_;
   BackendChoice choice_;
   std::unique_ptr<AnswerBuffers> raw_;
+  bool failed_ = false;            // nothing came back
+  bool relaxation_ended_ = false;  // by itself, not at a limit
   std::vector<double> relaxed_;
   std::mutex mutex_;
   std::map<std::vector<const Edge*>, Tried> tried_;  // by solve_path
@@ -112,10 +116,10 @@ ShortestPath Search::Run() {
 // The path of one vertex: its set, its terms.
 void Search::OneVertex() {
   const auto program = RestrictionOf({&source_}, {});
-  SolverInterface solver(NamesOf(options_.restriction_solver != nullptr
-                                     ? options_.restriction_solver
-                                     : options_.solver),
-                         host_);
+  SolverInterface solver(
+      NamesOf(options_.restriction_solver != nullptr ? options_.restriction_solver
+                                                     : options_.solver),
+      host_);
   answer_.result = solver.Solve(*program, std::nullopt, options_.solver_options);
   if (result().primal != PointKind::kFeasible) return;
   answer_.points = {result().GetSolution(source_.x())};
@@ -158,7 +162,8 @@ void Search::Transcribe() {
 template <class Holds>
 bool Search::AllTerms(Holds&& holds) const {
   const auto all = [&](const auto& terms) {
-    return std::all_of(terms.begin(), terms.end(), [&](const auto& term) { return holds(term.in); });
+    return std::all_of(terms.begin(), terms.end(),
+                       [&](const auto& term) { return holds(term.in); });
   };
   return std::all_of(pruned_.vertices.begin(), pruned_.vertices.end(),
                      [&](const Vertex* v) { return all(v->costs()) && all(v->constraints()); }) &&
@@ -192,6 +197,7 @@ bool Search::Load() {
     own["flow_tolerance"] = options_.flow_tolerance;
   }
   const BackendWish wish{strategy ? kRelaxAndRound : NamesOf(options_.solver), &options, 0, {}};
+  if (!options_.dump.empty()) WriteProblem(transcription_->problem().view(), options_.dump);
   choice_ = ChooseBackend(host_, transcription_->problem().view(), wish);
   result().considered = choice_.considered;
   result().seconds.lower += Since(start);
@@ -217,17 +223,18 @@ void Search::Solve() {
   SolveControl control(options, false);
   try {
     choice_.instance->Solve(control.Record(options.time_limit - Since(began_), false), raw_->raw);
-  } catch (const BackendError& e) {
-    raw_->raw.termination = SY_NOT_SOLVED;
-    result().termination = Termination::kBackendFailed;
-    result().message = e.what();
+  } catch (const BackendError& e) {  // a strategy that finds nobody to ask is no failure of it
+    failed_ = true;
+    const bool nobody = e.code() == SY_E_UNSUPPORTED;
+    result().termination = nobody ? Termination::kNoBackend : Termination::kBackendFailed;
+    result().message = nobody ? e.reason() : e.what();
   }
   control.RethrowWhatWasThrown();
   result().seconds.solve += Since(start);
 }
 
 void Search::Recover() {
-  if (result().termination == Termination::kBackendFailed) return;
+  if (failed_) return;
   const auto start = Clock::now();
   const sy_result& raw = raw_->raw;
   result().termination = static_cast<Termination>(raw.termination);
@@ -237,12 +244,11 @@ void Search::Recover() {
   if (Bounds() && std::isfinite(raw.bound)) {
     result().bound = raw.bound;
   } else if (!Bounds()) {
-    result().notes.emplace_back(
-        "no bound: a term of the relaxation is not one of the restriction");
+    result().notes.emplace_back("no bound: a term of the relaxation is not one of the restriction");
   }
   const auto has_flow = std::isfinite(raw.relaxed);
   if (has_flow) {
-    answer_.relaxation_cost = raw.relaxed;
+    if (relaxation_ended_) answer_.relaxation_cost = raw.relaxed;
     answer_.relaxed_flow.assign(static_cast<std::size_t>(graph_.num_edges()), 0);
     for (std::size_t a = 0; a < pruned_.edges.size(); ++a) {
       answer_.relaxed_flow[static_cast<std::size_t>(pruned_.place[a])] =
@@ -253,7 +259,7 @@ void Search::Recover() {
     RecoverBestTried();
   } else if (raw.primal == SY_FEASIBLE || raw.primal == SY_NEARLY_FEASIBLE) {
     RecoverPath(PathIn(pruned_, *transcription_, raw_->vectors.x), nullptr);
-  } else if (has_flow && !rounds()) {
+  } else if (has_flow && relaxation_ended_ && !rounds()) {
     RecoverRelaxation();
   }
   result().seconds.recover += Since(start);
@@ -279,11 +285,22 @@ void Search::RecoverPath(const PathPoints& path, const MathematicalProgramResult
   const double violation =
       RelativeViolation(lowering.problem().view(), lowering.Extend(*program, x));
   result().primal = violation <= kSupported ? PointKind::kFeasible : PointKind::kNearlyFeasible;
-  if (violation <= kSupported) return;
+  if (violation <= kSupported) return CapRelaxation();
   result().notes.push_back(Text("our check finds the path's points violated by ",
-                                result().violation.rows, " in rows and ",
-                                result().violation.cones, " in cones"));
+                                result().violation.rows, " in rows and ", result().violation.cones,
+                                " in cones"));
   result().termination = Termination::kNumericalTrouble;
+}
+
+// A path's points are points of the relaxation too, so its optimum is no higher than the path's
+// cost, whatever an inexact solve of it says.
+void Search::CapRelaxation() {
+  if (!(answer_.relaxation_cost > result().objective) || !Bounds()) return;
+  const double above = answer_.relaxation_cost - result().objective;
+  answer_.relaxation_cost = result().objective;
+  if (above <= kSupported * (1 + std::abs(result().objective))) return;
+  result().notes.push_back(Text("the relaxation was solved inexactly: its point costs ", above,
+                                " more than the path, which is one of its points"));
 }
 
 // The restriction as the front end means it: the best of those that were solved here.
@@ -318,8 +335,8 @@ void Search::RecoverRelaxation() {
       feasible && supported ? Termination::kOptimal : Termination::kNumericalTrouble;
   result().dual = supported ? PointKind::kFeasible : PointKind::kInfeasible;
   if (supported) return;
-  result().notes.push_back(Text("the relaxation's cost is supported only to the bound ",
-                                raw_->raw.bound));
+  result().notes.push_back(
+      Text("the relaxation's cost is supported only to the bound ", raw_->raw.bound));
 }
 
 std::vector<const Edge*> Search::EdgesOf(const std::int32_t* arcs, std::int32_t count) const {
@@ -335,14 +352,13 @@ void Search::SolvePath(const std::int32_t* arcs, std::int32_t count, const sy_co
   const std::vector<const Edge*> edges = EdgesOf(arcs, count);
   Tried tried;
   tried.program = RestrictionOf(VerticesOf(edges), edges);
-  SolverOptions options =
-      options_.restriction_solver_options.value_or(options_.solver_options);
+  SolverOptions options = options_.restriction_solver_options.value_or(options_.solver_options);
   options.time_limit = std::min(options.time_limit, control.seconds);
   options.threads = control.threads;
-  const SolverInterface solver(NamesOf(options_.restriction_solver != nullptr
-                                           ? options_.restriction_solver
-                                           : options_.solver),
-                               host_);
+  const SolverInterface solver(
+      NamesOf(options_.restriction_solver != nullptr ? options_.restriction_solver
+                                                     : options_.solver),
+      host_);
   tried.result = solver.Solve(*tried.program, std::nullopt, options);
   constexpr auto kOurs = static_cast<int>(Termination::kNoBackend);
   const auto termination = static_cast<int>(tried.result.termination);
@@ -363,6 +379,8 @@ void Search::SolvePath(const std::int32_t* arcs, std::int32_t count, const sy_co
 
 void Search::Hear(const std::int32_t* arcs, std::int32_t count, const sy_result& result) {
   if (count == 0) {
+    relaxation_ended_ =
+        result.termination == SY_OPTIMAL || result.termination == SY_NUMERICAL_TROUBLE;
     answer_.relaxation_seconds = result.seconds;
     answer_.subsolvers = {result.text};
     return;
@@ -409,8 +427,8 @@ MathematicalProgramResult GraphOfConvexSets::SolveConvexRestriction(
   }
   const SolverInterface solver(
       NamesOf(options.restriction_solver != nullptr ? options.restriction_solver : options.solver));
-  MathematicalProgramResult result =
-      solver.Solve(*program, guess, options.restriction_solver_options.value_or(options.solver_options));
+  MathematicalProgramResult result = solver.Solve(
+      *program, guess, options.restriction_solver_options.value_or(options.solver_options));
   if (result.primal != PointKind::kFeasible && result.primal != PointKind::kNearlyFeasible) {
     return result;
   }

@@ -155,8 +155,8 @@ std::vector<const GraphOfConvexSets::Edge*> GraphOfConvexSets::GetSolutionPath(
       return FlowOf(*edge, result) >= 1 - tolerance;
     });
     if (next == out.end() || path.size() > edges_.size()) {
-      throw std::runtime_error(Text("the flows form no path: none of at least ", 1 - tolerance,
-                                    " leaves ", at->name()));
+      throw std::runtime_error(
+          Text("the flows form no path: none of at least ", 1 - tolerance, " leaves ", at->name()));
     }
     path.push_back(*next);
     at = &(*next)->v();

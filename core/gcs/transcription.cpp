@@ -176,8 +176,8 @@ void GcsTranscription::WriteSquares(std::int32_t phi) {
   }
 }
 
-// Flow, degree and spatial rows. A vertex without edges has none; a point's spatial rows follow from
-// its flow.
+// Flow, degree and spatial rows. A vertex without edges has none; a point's spatial rows follow
+// from its flow.
 void GcsTranscription::WriteCoupling() {
   const std::size_t count = graph_.vertices.size();
   std::vector<std::int32_t> degree(count, 0), flow(count, -1), most(count, -1), spatial(count, -1);
@@ -277,7 +277,7 @@ void GcsTranscription::WriteHints() {
   }
   WritePoints(true, tail_point_, paths_.tail_point);
   WritePoints(false, head_point_, paths_.head_point);
-  blocks_ = {sizeof blocks_, count, block_of_x_.data(), block_of_row_.data(),
+  blocks_ = {sizeof blocks_,        count,  block_of_x_.data(), block_of_row_.data(),
              block_of_cone_.data(), nullptr};
   paths_.size = sizeof paths_;
   paths_.num_vertices = static_cast<std::int32_t>(graph_.vertices.size());

@@ -85,12 +85,12 @@ class GcsTranscription {
   ProblemBuilder builder_;
   Perspectives perspectives_;
   std::vector<EdgeVariables> edges_;
-  std::vector<Column> columns_;         // of the term at hand: t, x, w
+  std::vector<Column> columns_;  // of the term at hand: t, x, w
   struct Square {
     const Csc* S;
     std::size_t first;  // of its columns in square_columns_
   };
-  std::vector<Square> squares_;         // of the edge at hand
+  std::vector<Square> squares_;  // of the edge at hand
   std::vector<Column> square_columns_;
 
   Problem problem_;

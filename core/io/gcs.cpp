@@ -5,6 +5,7 @@
 #include "core/io/bytes.hpp"
 #include "core/io/gcs_sets.hpp"
 #include "core/io/json.hpp"
+#include "core/sets/box.hpp"
 #include "switchyard/io/graph.hpp"
 
 namespace switchyard {
@@ -101,7 +102,11 @@ GraphProblem GraphReader::Read() {
     rows_used_[found] = true;
     return rows_[found];
   };
-  ReadTable(sets, &sets_, [&](JsonValue entry) { return ReadSet(entry, &source_, constraint_of); });
+  ReadTable(sets, &sets_, [&](JsonValue entry) {
+    auto set = ReadSet(entry, &source_, constraint_of);
+    if (IsProvenEmpty(set->scaled())) entry.Fail("a set that has a point", "an empty one");
+    return set;
+  });
   problem_.graph = std::make_unique<GraphOfConvexSets>();
   ReadVertices(fields["vertices"], sets);
   problem_.source = VertexAt(fields["source"]);

@@ -18,10 +18,10 @@ struct SemidefiniteFactor {
   std::optional<NegativePivot> not_semidefinite;
 };
 
-/// P by its upper triangle. A pivoted Cholesky factor of each connected component, dense: components
-/// of objectives are small or diagonal. Each pivot is the largest entry that the steps before it
-/// left on the diagonal, so a semidefinite P of any rank ends with a rest that is 0 to rounding; a
-/// rest above 1e-9 of the component's largest entry says that P is not.
+/// P by its upper triangle. A pivoted Cholesky factor of each connected component, dense:
+/// components of objectives are small or diagonal. Each pivot is the largest entry that the steps
+/// before it left on the diagonal, so a semidefinite P of any rank ends with a rest that is 0 to
+/// rounding; a rest above 1e-9 of the component's largest entry says that P is not.
 SemidefiniteFactor FactorSemidefinite(const Csc& P);
 
 }  // namespace switchyard

@@ -2,9 +2,9 @@
 //
 // Propagation over rows and cones closes most. Where it leaves ends open, each coordinate is
 // minimized and maximized over the set by a backend, and its duals give a bound b_i(M) that holds
-// for all points with |x|_inf <= M: b_i(M) = b_i(0) + e_i M, e_i the sum of the residuals. If M_0 is
-// above every b_i(M_0) and e_i < 1, no point lies outside M_0: one with |x|_inf = M > M_0 attained
-// at i would have M <= b_i(M) = b_i(M_0) + e_i (M - M_0), so M < M_0.
+// for all points with |x|_inf <= M: b_i(M) = b_i(0) + e_i M, e_i the sum of the residuals. If M_0
+// is above every b_i(M_0) and e_i < 1, no point lies outside M_0: one with |x|_inf = M > M_0
+// attained at i would have M <= b_i(M) = b_i(M_0) + e_i (M - M_0), so M < M_0.
 #include "core/sets/box.hpp"
 
 #include <algorithm>
@@ -122,6 +122,11 @@ bool CloseByPrograms(const ScaledSet& set, SetBox& box) {
 }
 
 }  // namespace
+
+bool IsProvenEmpty(const ScaledSet& set) {
+  const Problem problem(AtScaleOne(set));
+  return ProvenBoxes(problem.view()).infeasible;
+}
 
 SetBox BoxOf(const ScaledSet& set) {
   const Problem problem(AtScaleOne(set));

@@ -8,4 +8,7 @@ namespace switchyard {
 /// By propagation, then by linear or conic programs for the ends that it leaves open.
 SetBox BoxOf(const ScaledSet& set);
 
+/// Does propagation alone prove that the set has no point? No backend is asked.
+bool IsProvenEmpty(const ScaledSet& set);
+
 }  // namespace switchyard

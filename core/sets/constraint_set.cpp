@@ -11,9 +11,8 @@ ConstraintSet::ConstraintSet(int dimension, Constraints constraints)
   Require(dimension >= 0, "a set of constraints needs a dimension, got ", dimension);
   for (const auto& constraint : constraints_) {
     Require(constraint != nullptr, "a set of constraints needs constraints, got a null pointer");
-    Require(constraint->num_vars() == dimension, "a set in R^", dimension,
-            " needs constraints on ", dimension, " variables, got ", constraint->Name(), " on ",
-            constraint->num_vars());
+    Require(constraint->num_vars() == dimension, "a set in R^", dimension, " needs constraints on ",
+            dimension, " variables, got ", constraint->Name(), " on ", constraint->num_vars());
     RequireConvex(*constraint);
   }
 }

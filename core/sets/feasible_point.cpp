@@ -14,7 +14,7 @@ namespace switchyard {
 namespace {
 
 constexpr int kSweeps = 50;
-constexpr double kInside = 1e-9;      // absolute, per unit of the point's size
+constexpr double kInside = 1e-9;         // absolute, per unit of the point's size
 constexpr double kOverProjection = 1.5;  // beyond 1, so that an inner point is met in finitely many
 
 Eigen::VectorXd Middle(const SetBox& box) {

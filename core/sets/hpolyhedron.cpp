@@ -36,8 +36,7 @@ HPolyhedron HPolyhedron::MakeBox(const VectorRef& lb, const VectorRef& ub) {
   Require(lb.size() == ub.size(), "box: lb has ", lb.size(), " entries, ub ", ub.size());
   const Eigen::Index n = lb.size();
   for (Eigen::Index i = 0; i < n; ++i) {
-    Require(lb[i] <= ub[i], "box: lb[", i, "] = ", lb[i], " must be at most ub[", i,
-            "] = ", ub[i]);
+    Require(lb[i] <= ub[i], "box: lb[", i, "] = ", lb[i], " must be at most ub[", i, "] = ", ub[i]);
   }
   Eigen::MatrixXd A(2 * n, n);
   A << Eigen::MatrixXd::Identity(n, n), -Eigen::MatrixXd::Identity(n, n);

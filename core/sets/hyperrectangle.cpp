@@ -17,7 +17,8 @@ Hyperrectangle::Hyperrectangle(const VectorRef& lb, const VectorRef& ub)
 }
 
 Eigen::VectorXd Hyperrectangle::Center() const {
-  Require(lb_.allFinite() && ub_.allFinite(), "a hyperrectangle with an infinite side has no center");
+  Require(lb_.allFinite() && ub_.allFinite(),
+          "a hyperrectangle with an infinite side has no center");
   return 0.5 * (lb_ + ub_);
 }
 

@@ -74,9 +74,9 @@ Added AddScaled(MathematicalProgram* prog, const ScaledSet& set, const Affine& b
   const Substituted cones = Substitute(set.F, set.dim, set.num_aux, by);
   Eigen::Index first = 0;
   for (const sy_cone& cone : set.cones) {
-    const SparseMatrix rows = SparseMatrix(SparseMatrix(cones.N.transpose()).middleCols(first, cone.dim)).transpose();
-    const auto constraint =
-        ConeConstraintOf(cone, rows, cones.constant.segment(first, cone.dim));
+    const SparseMatrix rows =
+        SparseMatrix(SparseMatrix(cones.N.transpose()).middleCols(first, cone.dim)).transpose();
+    const auto constraint = ConeConstraintOf(cone, rows, cones.constant.segment(first, cone.dim));
     added.constraints.push_back(prog->AddConstraint(Binding<Constraint>(constraint, vars)));
     first += cone.dim;
   }
@@ -104,8 +104,8 @@ std::vector<Binding<Constraint>> ConvexSet::AddPointInNonnegativeScalingConstrai
     MathematicalProgram* prog, const VariableList& x, Variable t) const {
   const int n = ambient_dimension();
   return AddPointInNonnegativeScalingConstraints(prog, Eigen::MatrixXd::Identity(n, n),
-                                                 Eigen::VectorXd::Zero(n),
-                                                 Eigen::VectorXd::Ones(1), 0, x, t);
+                                                 Eigen::VectorXd::Zero(n), Eigen::VectorXd::Ones(1),
+                                                 0, x, t);
 }
 
 std::vector<Binding<Constraint>> ConvexSet::AddPointInNonnegativeScalingConstraints(
@@ -114,9 +114,9 @@ std::vector<Binding<Constraint>> ConvexSet::AddPointInNonnegativeScalingConstrai
   const int n = ambient_dimension();
   Require(A.rows() == n && b.size() == n, "a scaled ", Kind(), " in R^", n, " needs A with ", n,
           " rows and b with ", n, " entries, got ", A.rows(), " and ", b.size());
-  Require(A.cols() == x.vector().size() && c.size() == t.vector().size(),
-          "A has ", A.cols(), " columns for ", x.vector().size(), " variables x, c ", c.size(),
-          " entries for ", t.vector().size(), " variables t");
+  Require(A.cols() == x.vector().size() && c.size() == t.vector().size(), "A has ", A.cols(),
+          " columns for ", x.vector().size(), " variables x, c ", c.size(), " entries for ",
+          t.vector().size(), " variables t");
   Added added = AddScaled(prog, scaled(), {A.sparseView(1.0, 0.0), b, c, d}, x, t);
   if (c.size() > 0) {
     added.constraints.emplace_back(

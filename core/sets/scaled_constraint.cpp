@@ -34,7 +34,8 @@ void WriteCone(const ConeConstraint& cone, ScaledRows& rows) {
 void RequireConvex(const Constraint& constraint) {
   const bool known = dynamic_cast<const LinearConstraint*>(&constraint) != nullptr ||
                      dynamic_cast<const ConeConstraint*>(&constraint) != nullptr;
-  Require(known, constraint.Name(), " has no perspective: a set, a relaxation and a mixed-integer "
+  Require(known, constraint.Name(),
+          " has no perspective: a set, a relaxation and a mixed-integer "
           "program take linear and conic constraints");
 }
 

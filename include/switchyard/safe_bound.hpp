@@ -112,6 +112,7 @@ class Terms {
     count_ += 1;
   }
   [[nodiscard]] double LowerEnd() const {
+    if (size_ == 0) return 0;
     const double end = sum_ - 2 * count_ * DBL_EPSILON * size_;
     return std::isfinite(end) ? std::nextafter(end, -kInfinity) : -kInfinity;
   }

@@ -25,8 +25,7 @@ double BoundOver(const sy_problem& problem, const Answer& relaxed, const double*
 }  // namespace
 
 double ProvenBound(const sy_problem& problem, const Answer& relaxed, double cutoff) {
-  const double bound = BoundOver(problem, relaxed, problem.x_lower, problem.x_upper);
-  if (bound > -kInfinity || !(cutoff < kInfinity)) return bound;
+  if (!(cutoff < kInfinity)) return BoundOver(problem, relaxed, problem.x_lower, problem.x_upper);
   const Boxes boxes = ProvenBoxes(problem, cutoff);
   if (boxes.infeasible) return cutoff;
   return std::min(cutoff, BoundOver(problem, relaxed, boxes.lower.data(), boxes.upper.data()));

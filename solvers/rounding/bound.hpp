@@ -8,9 +8,9 @@ namespace switchyard::rounding {
 
 /// A bound on the objective of every feasible point of `problem`, from duals of any quality of a
 /// problem with the same rows and cones: SafeDualBound over the problem's own bounds, the epigraph
-/// variables' residuals made exactly 0. Where these leave a column open, over the boxes that rows,
-/// cones and `cutoff` prove (infinity: none is known): then the smaller of that and the cutoff.
-/// -infinity where nothing is proven.
+/// variables' residuals made exactly 0. With a finite `cutoff` instead over the boxes that rows,
+/// cones and the cutoff prove: then the smaller of that and the cutoff. -infinity where nothing is
+/// proven.
 double ProvenBound(const sy_problem& problem, const Answer& relaxed, double cutoff);
 
 /// Do the duals of a certificate prove that `problem` has no feasible point? They do where the

@@ -128,10 +128,14 @@ class Run {
     paths.tried(paths.context, c.path.data(), static_cast<std::int32_t>(c.path.size()), &told);
   }
 
-  // Variables without boxes may get some from the best objective. It must be one of this problem.
+  // The best objective makes boxes narrower, or finite: where the duals are good, the bound needs
+  // none of that. It must be an objective of this problem.
   void CloseTheBound() {
-    if (best_ == nullptr || !best_->verified || bound_ > -kInfinity) return;
-    if (relaxed_.dual != SY_CERTIFICATE) bound_ = ProvenBound(p_, relaxed_, best_->objective);
+    constexpr double kGood = 1e-6;
+    if (best_ == nullptr || !best_->verified || relaxed_.dual == SY_CERTIFICATE) return;
+    const double relaxed = Objective(p_, relaxed_.x.data());
+    if (relaxed - bound_ <= kGood * (1 + std::abs(relaxed))) return;
+    bound_ = std::max(bound_, ProvenBound(p_, relaxed_, best_->objective));
   }
 
   [[nodiscard]] sy_termination Verdict() const {

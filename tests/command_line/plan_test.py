@@ -197,13 +197,22 @@ class Paths(Planning):
 
 
 class Refusals(Planning):
-    def test_no_way_is_an_answer(self):
-        self.any_of(*LINEAR)
+    def test_a_target_that_no_edges_lead_to_is_a_mistake_of_the_file(self):
         path = self.changed(edges=self.choice["edges"][:1])
-        result = self.plan(path)
-        self.assertEqual(result["termination"], "infeasible")
-        self.assertEqual(result["message"], "no path of edges leads from start to goal")
-        self.assertNotIn("path", result)
+        done = self.expect(self.run_program("plan", path), BAD_INPUT)
+        self.assertIn("/target: needs a vertex that edges lead to from start, got goal",
+                      done.stderr)
+
+    def test_a_set_without_a_point_is_a_mistake_of_the_file(self):
+        sets = dict(self.choice["sets"])
+        name = next(iter(sets))
+        sets[name] = {"type": "hpolyhedron", "A": "empty", "b": [0, -1]}
+        entries = [[0, 0, 1], [1, 0, -1]]
+        matrices = dict(self.choice.get("matrices", {}),
+                        empty={"rows": 2, "cols": 2, "entries": entries})
+        path = self.changed(sets=sets, matrices=matrices)
+        done = self.expect(self.run_program("plan", path), BAD_INPUT)
+        self.assertIn(f"/sets/{name}: needs a set that has a point, got an empty one", done.stderr)
 
     def test_bad_files_are_refused_with_the_place(self):
         sets = self.choice["sets"]
@@ -301,7 +310,9 @@ class Pictures(Planning):
         parts, _, _ = self.draw(self.changed(), "--relaxation")
         self.assertTrue(parts["f"])
         self.assertFalse(parts["p"])
-        parts, _, _ = self.draw(self.changed(edges=[]))
+        far = {"far": {"type": "linear", "A": "difference", "lb": [9, 9], "ub": [9, 9]}}
+        edges = [dict(edge, constraints=["far"]) for edge in self.choice["edges"]]
+        parts, _, _ = self.draw(self.changed(constraints=far, edges=edges))
         self.assertEqual([len(parts[kind]) for kind in "sfpab"], [2, 0, 0, 1, 1])
 
 

@@ -14,8 +14,8 @@ namespace switchyard::testing {
 
 enum class EdgeCost { kL1, kL2, kSquared, kLinear };
 
-/// `size` x `size` boxes (or balls) around jittered grid points, edges both ways between neighbours,
-/// the first and the last vertex a point.
+/// `size` x `size` boxes (or balls) around jittered grid points, edges both ways between
+/// neighbours, the first and the last vertex a point.
 struct Grid {
   Grid(int size, EdgeCost kind, unsigned seed, bool balls = false) : engine(seed) {
     for (int i = 0; i < size * size; ++i) {
@@ -44,8 +44,8 @@ struct Grid {
     AddEdge(b, a, kind);
   }
   GraphOfConvexSets::Edge* AddEdge(int a, int b, EdgeCost kind) {
-    auto* edge = graph.AddEdge(vertices[static_cast<std::size_t>(a)],
-                               vertices[static_cast<std::size_t>(b)]);
+    auto* edge =
+        graph.AddEdge(vertices[static_cast<std::size_t>(a)], vertices[static_cast<std::size_t>(b)]);
     VectorXDecisionVariable x(4);
     x << edge->xu(), edge->xv();
     edge->AddCost(Binding<Cost>(CostOf(kind), x));

@@ -38,7 +38,8 @@ double ConeViolation(const ScaledSet& cone, const Eigen::VectorXd& at) {
 /// cost'(t, x, w) + |Sx|^2 / (2t).
 double Total(const Perspective& p, const Eigen::VectorXd& at) {
   double sum = 0;
-  for (std::size_t j = 0; j < p.cost.size(); ++j) sum += p.cost[j] * at[static_cast<Eigen::Index>(j)];
+  for (std::size_t j = 0; j < p.cost.size(); ++j)
+    sum += p.cost[j] * at[static_cast<Eigen::Index>(j)];
   if (p.S.rows == 0) return sum;
   Eigen::VectorXd Sx = Eigen::VectorXd::Zero(p.S.rows);
   MultiplyAdd(p.S.View(), 1, at.data() + 1, Sx.data());

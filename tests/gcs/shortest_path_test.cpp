@@ -45,8 +45,7 @@ TEST_P(ShortestPaths, HaveABoundBelowAndAPathAmongAllPaths) {
       ASSERT_TRUE(restriction.is_success()) << restriction.message;
       best = std::min(best, restriction.objective);
     }
-    const ShortestPath found =
-        FindShortestPath(grid.graph, grid.source(), grid.target(), options);
+    const ShortestPath found = FindShortestPath(grid.graph, grid.source(), grid.target(), options);
     ASSERT_EQ(found.result.primal, PointKind::kFeasible) << found.result.message;
     EXPECT_LE(found.result.bound, best + 1e-9);
     EXPECT_GE(found.result.objective, best - 1e-6 * (1 + std::abs(best)));
@@ -105,8 +104,7 @@ TEST_P(ShortestPaths, AreTheSameForAnyNumberOfThreads) {
   std::vector<double> objectives;
   for (const int threads : {1, 2, 5}) {
     options.parallelism = Parallelism(threads);
-    const ShortestPath found =
-        FindShortestPath(grid.graph, grid.source(), grid.target(), options);
+    const ShortestPath found = FindShortestPath(grid.graph, grid.source(), grid.target(), options);
     objectives.push_back(found.result.objective);
     ASSERT_FALSE(found.rounded.empty());
   }
@@ -146,8 +144,7 @@ TEST_F(WithoutABackend, AnUnreachableTargetIsInfeasibleWithoutASolver) {
     if (&edge->v() == &grid.target()) grid.graph.RemoveEdge(edge);
   }
   Host empty(HostOptions{{}, std::vector<std::string>{}, nullptr});
-  const ShortestPath found =
-      FindShortestPath(grid.graph, grid.source(), grid.target(), {}, empty);
+  const ShortestPath found = FindShortestPath(grid.graph, grid.source(), grid.target(), {}, empty);
   EXPECT_EQ(found.result.termination, Termination::kInfeasible);
   EXPECT_EQ(found.result.message, "no path of edges leads from v0 to v3");
 }
@@ -155,8 +152,7 @@ TEST_F(WithoutABackend, AnUnreachableTargetIsInfeasibleWithoutASolver) {
 TEST_F(WithoutABackend, SaysWhoWasAsked) {
   const Grid grid(2, EdgeCost::kL2, 1);
   Host empty(HostOptions{{}, std::vector<std::string>{}, nullptr});
-  const ShortestPath found =
-      FindShortestPath(grid.graph, grid.source(), grid.target(), {}, empty);
+  const ShortestPath found = FindShortestPath(grid.graph, grid.source(), grid.target(), {}, empty);
   EXPECT_EQ(found.result.termination, Termination::kNoBackend);
   EXPECT_NE(found.result.message.find("relax-and-round"), std::string::npos);
 }

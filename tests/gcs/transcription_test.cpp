@@ -68,7 +68,8 @@ TEST(Transcription, SaysTheTruthInItsBlocks) {
     ASSERT_EQ(blocks.num_blocks, static_cast<std::int32_t>(w.pruned.edges.size()));
     std::vector<std::int32_t> cone_of_row;
     for (std::int32_t c = 0; c < d.num_cones(); ++c) {
-      cone_of_row.insert(cone_of_row.end(), static_cast<std::size_t>(d.cones[static_cast<std::size_t>(c)].dim), c);
+      cone_of_row.insert(cone_of_row.end(),
+                         static_cast<std::size_t>(d.cones[static_cast<std::size_t>(c)].dim), c);
     }
     for (std::int32_t j = 0; j < d.num_vars; ++j) {
       const auto column = static_cast<std::size_t>(j);
@@ -100,7 +101,8 @@ TEST(Transcription, SaysTheTruthInItsBlocks) {
 }
 
 /// The point of a path: phi = 1 on it, ends at `points`, epigraphs at `epigraph` of each edge.
-std::vector<double> PointOf(const Written& w, const std::vector<const GraphOfConvexSets::Edge*>& path,
+std::vector<double> PointOf(const Written& w,
+                            const std::vector<const GraphOfConvexSets::Edge*>& path,
                             const std::vector<Eigen::VectorXd>& points, double epigraph) {
   std::vector<double> x(w.data().q.size(), 0.0);
   const auto& blocks = HintOf<sy_blocks>(w.data(), "sy.blocks/1");

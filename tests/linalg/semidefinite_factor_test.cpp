@@ -39,8 +39,7 @@ TEST(SemidefiniteFactor, MultipliesBackAtAnyRank) {
   for (int trial = 0; trial < 60; ++trial) {
     const int n = 1 + trial % 7;
     const int rank = trial % (n + 1);
-    const Eigen::MatrixXd G =
-        Eigen::MatrixXd::NullaryExpr(rank, n, [&] { return normal(engine); });
+    const Eigen::MatrixXd G = Eigen::MatrixXd::NullaryExpr(rank, n, [&] { return normal(engine); });
     const Eigen::MatrixXd P = G.transpose() * G;
     const SemidefiniteFactor factor = FactorSemidefinite(UpperTriangle(P));
     ASSERT_FALSE(factor.not_semidefinite.has_value());
@@ -59,9 +58,7 @@ TEST(SemidefiniteFactor, ShowsThePivotOfAMatrixThatIsNot) {
   EXPECT_EQ(factor.not_semidefinite->column, 3);
 }
 
-TEST(SemidefiniteFactor, OfNothingHasNoRows) {
-  EXPECT_EQ(FactorSemidefinite(Csc(3, 3)).S.rows, 0);
-}
+TEST(SemidefiniteFactor, OfNothingHasNoRows) { EXPECT_EQ(FactorSemidefinite(Csc(3, 3)).S.rows, 0); }
 
 }  // namespace
 }  // namespace switchyard::testing

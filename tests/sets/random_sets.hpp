@@ -21,7 +21,9 @@ class RandomSets {
  public:
   explicit RandomSets(unsigned seed) : engine_(seed) {}
 
-  double Uniform(double a, double b) { return std::uniform_real_distribution<double>(a, b)(engine_); }
+  double Uniform(double a, double b) {
+    return std::uniform_real_distribution<double>(a, b)(engine_);
+  }
   Eigen::VectorXd Vector(int n, double size = 1) {
     return Eigen::VectorXd::NullaryExpr(n, [&] { return Uniform(-size, size); });
   }
@@ -56,7 +58,7 @@ class RandomSets {
     b[0] = 1;
     return {n,
             {std::make_shared<LinearConstraint>(A, middle - Vector(3).cwiseAbs(),
-                                               middle + Vector(3).cwiseAbs()),
+                                                middle + Vector(3).cwiseAbs()),
              std::make_shared<LorentzConeConstraint>(cone, b),
              std::make_shared<BoundingBoxConstraint>(inside - Eigen::VectorXd::Ones(n),
                                                      inside + Eigen::VectorXd::Ones(n))}};

@@ -8,8 +8,8 @@ namespace {
 double ViolationAt(const MathematicalProgram& program, const Eigen::VectorXd& values) {
   double worst = 0;
   for (const auto& binding : program.GetAllConstraints()) {
-    worst = std::max(worst, binding.evaluator()->Violation(
-                                program.ValuesOf(binding.variables(), values)));
+    worst = std::max(worst,
+                     binding.evaluator()->Violation(program.ValuesOf(binding.variables(), values)));
   }
   return worst;
 }

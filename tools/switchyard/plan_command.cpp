@@ -1,6 +1,7 @@
 #include <cmath>
 #include <iostream>
 #include <sstream>
+#include <unordered_set>
 
 #include <fmt/format.h>
 
@@ -47,6 +48,7 @@ void PlanOptions::AddTo(CLI::App& command) {
       .add_flag("--round", round,
                 "Solve the relaxation, sample paths from its flow and solve each (default)")
       ->excludes(only);
+  command.add_option("--dump", solve.dump, "Write the transcribed problem to this file");
   command.add_option("--paths", paths, "Distinct paths to try at most (default 10)")
       ->check(CLI::Range(1, 100000))
       ->excludes(only);
@@ -83,6 +85,7 @@ GraphOfConvexSetsOptions ForSearch(const PlanOptions& options, const SolverInter
   search.rounding_seed = static_cast<int>(given.seed);
   search.solver = &solver;
   search.solver_options = given;
+  search.dump = options.solve.dump;
   if (given.threads > 0) search.parallelism = Parallelism(given.threads);
   return search;
 }
@@ -162,6 +165,23 @@ void WriteAll(const PlanOptions& options, const GraphProblem& problem, const Sho
   if (!options.solve.quiet && !taken) SayInWords(problem, found);
 }
 
+/// Throws FileError where no edges lead from the source to the target, whatever the sets: a file
+/// that asks for what cannot be.
+void CheckTarget(const GraphProblem& problem, const std::string& file) {
+  std::vector<const GraphOfConvexSets::Vertex*> open = {problem.source};
+  std::unordered_set<const GraphOfConvexSets::Vertex*> reached = {problem.source};
+  while (!open.empty()) {
+    const GraphOfConvexSets::Vertex* v = open.back();
+    open.pop_back();
+    for (const auto* edge : v->outgoing_edges()) {
+      if (reached.insert(&edge->v()).second) open.push_back(&edge->v());
+    }
+  }
+  if (reached.count(problem.target) > 0) return;
+  throw FileError(file, "/target", "a vertex that edges lead to from " + problem.source->name(),
+                  problem.target->name() + ", which none lead to");
+}
+
 int Plan(const std::string& file, PlanOptions& options) {
   const Clock::time_point start = Clock::now();
   WatchInterrupts();
@@ -169,6 +189,7 @@ int Plan(const std::string& file, PlanOptions& options) {
   ReadOptions reading;
   reading.notes = &notes;
   const GraphProblem problem = ReadGraph(file, reading);
+  CheckTarget(problem, file);
   const double read = Since(start);
   for (const std::string& note : notes) {
     if (!options.solve.quiet) std::cerr << "note: " << note << '\n';

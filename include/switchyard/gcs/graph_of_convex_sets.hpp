@@ -1,5 +1,5 @@
-// switchyard/gcs/graph_of_convex_sets.hpp - a directed graph whose vertices are convex sets, and the
-// shortest path through one.
+// switchyard/gcs/graph_of_convex_sets.hpp - a directed graph whose vertices are convex sets, and
+// the shortest path through one.
 #pragma once
 
 #include <compare>
@@ -28,8 +28,8 @@ struct Identifier {
   auto operator<=>(const Identifier&) const = default;
 };
 
-/// Vertices hold sets; a path picks one point in each of its vertices. The cost of a path is the sum
-/// of the costs of its edges, functions of both end points, and of its vertices; constraints
+/// Vertices hold sets; a path picks one point in each of its vertices. The cost of a path is the
+/// sum of the costs of its edges, functions of both end points, and of its vertices; constraints
 /// likewise. Vertices and edges stay where they are until they are removed.
 ///
 /// Not thread-safe while it changes; const members may be called from several threads.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "switchyard/export.hpp"
 #include "switchyard/solve/solve.hpp"
@@ -41,6 +42,8 @@ struct GraphOfConvexSetsOptions {
   std::optional<SolverOptions> restriction_solver_options;
   std::optional<SolverOptions> preprocessing_solver_options;
   Parallelism parallelism = Parallelism::Max();
+  /// A file for the transcribed problem, for a bug report; empty: none.
+  std::string dump;
 };
 
 }  // namespace switchyard
