@@ -117,13 +117,15 @@ inline Csc StackRows(const Csc& top, const Csc& bottom) {
   both.value.reserve(both.row.capacity());
   for (std::int32_t j = 0; j < top.cols; ++j) {
     const auto column = static_cast<std::size_t>(j);
-    for (const Csc* part : {&top, &bottom}) {
-      for (auto k = static_cast<std::size_t>(part->start[column]);
-           k < static_cast<std::size_t>(part->start[column + 1]); ++k) {
-        both.row.push_back(part->row[k] + (part == &bottom ? top.rows : 0));
-        both.value.push_back(part->value[k]);
+    const auto append = [&](const Csc& part, std::int32_t above) {
+      for (auto k = static_cast<std::size_t>(part.start[column]);
+           k < static_cast<std::size_t>(part.start[column + 1]); ++k) {
+        both.row.push_back(part.row[k] + above);
+        both.value.push_back(part.value[k]);
       }
-    }
+    };
+    append(top, 0);
+    append(bottom, top.rows);
     both.start[column + 1] = static_cast<std::int32_t>(both.row.size());
   }
   return both;
