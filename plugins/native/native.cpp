@@ -1,5 +1,6 @@
-// The solvers of solvers/ as one module. They need no library but those of the tree itself.
+// The solvers of solvers/ as one module.
+#include "solvers/conic/conic.hpp"
 #include "solvers/rounding/relax_and_round.hpp"
 #include "switchyard/plugin.hpp"
 
-SY_PLUGIN("native", "1.0", switchyard::rounding::RelaxAndRound)
+SY_PLUGIN("native", "1.0", switchyard::conic::Conic, switchyard::rounding::RelaxAndRound)

@@ -6,6 +6,8 @@
 // q'd = -1.
 #pragma once
 
+#include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -20,6 +22,7 @@ struct Shape {
   std::vector<sy_cone> cones = {};
   bool quadratic = false;
   bool bounds = true;
+  double density = 0.6;  // of A and F
 };
 
 struct KnownAnswer {
@@ -31,6 +34,18 @@ struct Pair {
   Vector s;
   Vector z;
 };
+
+inline int OrderOf(std::int32_t svec_dim) {
+  return static_cast<int>(std::lround((std::sqrt(8.0 * svec_dim + 1) - 1) / 2));
+}
+
+inline Vector Svec(const Eigen::MatrixXd& m) {
+  Vector v;
+  for (int j = 0; j < m.cols(); ++j) {
+    for (int i = 0; i <= j; ++i) v.push_back(m(i, j) * (i == j ? 1 : std::sqrt(2.0)));
+  }
+  return v;
+}
 
 /// s in the cone and z in its dual with s'z = 0, neither of them 0 in general.
 inline Pair ComplementaryPair(const sy_cone& cone, Random& random) {
@@ -64,20 +79,15 @@ inline Pair ComplementaryPair(const sy_cone& cone, Random& random) {
       const double sign = s[2] > 0 ? 1 : -1;
       return {s, {scale * a * mean / s[0], scale * (1 - a) * mean / s[1], -scale * sign}};
     }
-    default: {  // PSD of order 3: G G' and h h' with G'h = 0
-      const Vector a = random.Normals(3);
-      const Vector b = random.Normals(3);
-      const Vector h = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
-                        a[0] * b[1] - a[1] * b[0]};
-      std::size_t k = 0;
-      for (std::size_t j = 0; j < 3; ++j) {
-        for (std::size_t i = 0; i <= j; ++i, ++k) {
-          const double weight = i == j ? 1 : std::sqrt(2.0);
-          s[k] = weight * (a[i] * a[j] + b[i] * b[j]);
-          z[k] = weight * scale * h[i] * h[j];
-        }
-      }
-      return {s, z};
+    default: {  // PSD: G G' and H H' with G'H = 0
+      const int order = OrderOf(cone.dim);
+      Eigen::MatrixXd g(order, order);
+      for (double& e : g.reshaped()) e = random.Normal();
+      const Eigen::MatrixXd q = g.householderQr().householderQ();
+      const int rank = std::max(1, order / 2 + order % 2);
+      const Eigen::MatrixXd left = q.leftCols(rank), right = q.rightCols(order - rank);
+      return {Svec(left * random.Uniform(0.2, 2) * left.transpose()),
+              Svec(right * scale * right.transpose())};
     }
   }
 }
@@ -135,10 +145,11 @@ inline ProblemData RandomFrame(const Shape& shape, Random& random) {
   ProblemData d;
   d.num_vars = shape.vars;
   d.flags = SY_PROBLEM_CONVEX;
-  d.P = shape.quadratic ? GramMatrix(random.Sparse(shape.vars / 2, shape.vars, 0.5))
-                        : Csc(shape.vars, shape.vars);
-  d.A = random.Sparse(shape.rows, shape.vars, 0.6);
-  d.F = random.Sparse(ConeRows(shape.cones), shape.vars, 0.6);
+  d.P = shape.quadratic
+            ? GramMatrix(random.Sparse(shape.vars / 2, shape.vars, std::min(0.5, shape.density)))
+            : Csc(shape.vars, shape.vars);
+  d.A = random.Sparse(shape.rows, shape.vars, shape.density);
+  d.F = random.Sparse(ConeRows(shape.cones), shape.vars, shape.density);
   d.cones = shape.cones;
   d.q.assign(static_cast<std::size_t>(shape.vars), 0.0);
   d.row_lower.assign(static_cast<std::size_t>(shape.rows), -kInfinity);
