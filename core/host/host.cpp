@@ -294,10 +294,13 @@ Candidate Judge(const Host& host, const Backend& backend, const sy_problem& prob
   }
 }
 
-// Among suitable backends that nobody named: fewer bridges, then more that can be known and kept.
+// Among suitable backends that nobody named: fewer bridges; then those that come with the project,
+// so that the default is the same on every machine; then more that can be known and kept.
 bool Better(const Candidate& a, const Candidate& b) {
   if (a.suitable != b.suitable) return a.suitable;
   if (a.num_bridges != b.num_bridges) return a.num_bridges < b.num_bridges;
+  const auto ours = [](const Candidate& c) { return c.backend->id.starts_with("org.switchyard."); };
+  if (ours(a) != ours(b)) return ours(a);
   const auto worth = [](const Candidate& c) {
     const sy_solver& s = c.backend->facts;
     return std::popcount(s.traits & (SY_GIVES_DUALS | SY_GIVES_CERTIFICATES)) * 100 +

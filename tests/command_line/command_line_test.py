@@ -223,7 +223,7 @@ class Answers(CommandLine):
         self.need("highs", "clarabel")
         done = self.expect(self.run_program("solve", self.example("ball.cbf"), "--explain"),
                            ANSWERED)
-        self.assertRegex(done.stderr, r"(?m)^chosen +\S*clarabel: ")
+        self.assertRegex(done.stderr, r"(?m)^chosen +\S*conic: ")
         self.assertRegex(done.stderr, r"(?m)^skipped +\S*highs: does not take second-order")
         self.assertNotIn("skipped", done.stdout)
 

@@ -264,7 +264,7 @@ class Pictures(Planning):
                 if pair]
 
     def test_sets_of_the_plane_are_drawn_as_they_are(self):
-        self.need("clarabel")
+        self.need("conic")
         parts, size, root = self.draw(self.changed())
         polygon, ellipse = parts["s"]
         self.assertEqual(polygon.tag, SVG + "path")
@@ -282,7 +282,7 @@ class Pictures(Planning):
         self.assertAlmostEqual(radii[1], scale, delta=0.1)
         self.assertEqual(len(parts["d"]), 3)
         words = " ".join(e.text for e in root.iter(SVG + "text"))
-        for word in ("choice", "optimal", "cost 4", "bound", "relax-and-round", "clarabel"):
+        for word in ("choice", "optimal", "cost 4", "bound", "relax-and-round", "conic"):
             self.assertIn(word, words)
 
     def test_all_that_is_drawn_is_on_the_canvas(self):
