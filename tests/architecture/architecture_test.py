@@ -76,8 +76,44 @@ class Includes(Tree):
             "plugins/clp/clp.cpp:1: includes switchyard/model/program.hpp; plugins know the shared "
             "headers, never core")
 
+    def test_the_parts_of_solvers_know_what_they_are_made_of(self):
+        self.assertEqual(self.found({
+            "solvers/linalg/ordering.cpp": "#include <amd.h>\n#include <metis.h>\n",
+            "solvers/cones/group.hpp": '#include "solvers/linalg/simd.hpp"\n',
+            "solvers/presolve/draft.hpp": '#include "switchyard/problem.hpp"\n',
+            "solvers/conic/form.hpp": '#include "solvers/presolve/presolve.hpp"\n'
+                                      '#include "solvers/cones/kinds.hpp"\n'
+                                      '#include "solvers/linalg/sparse.hpp"\n'}), [])
+
+    def test_an_arrow_of_solvers_may_not_be_turned_round(self):
+        self.assert_only(
+            {"solvers/linalg/ldl.cpp": '#include "solvers/cones/kinds.hpp"\n'},
+            "solvers/linalg/ldl.cpp:1: includes solvers/cones/kinds.hpp; linalg may know no other "
+            "part of solvers, not cones")
+        self.assert_only(
+            {"solvers/cones/power.cpp": '#include "solvers/conic/form.hpp"\n'},
+            "solvers/cones/power.cpp:1: includes solvers/conic/form.hpp; cones may know linalg, not "
+            "conic")
+
+    def test_solvers_keep_what_is_not_theirs_out(self):
+        self.assertEqual(len(self.found({
+            "solvers/conic/kkt.cpp": '#include <amd.h>\n#include <Highs.h>\n'
+                                     '#include "core/host/host.hpp"\n'
+                                     '#include "plugins/clp/clp.hpp"\n'})), 4)
+
+    def test_nothing_but_benchmarks_knows_what_tests_share(self):
+        wanted = '#include "tests/support/known_answers.hpp"\n'
+        self.assertEqual(self.found({"benchmarks/runner/side_by_side.cpp": wanted}), [])
+        self.assert_only(
+            {"benchmarks/runner/waist.cpp": '#include "tests/host/scripted.hpp"\n'},
+            "benchmarks/runner/waist.cpp:1: includes tests/host/scripted.hpp; benchmarks know of "
+            "tests only tests/support")
+        self.assertEqual(len(self.found({"core/host/host.cpp": wanted,
+                                         "solvers/conic/kkt.cpp": wanted,
+                                         "plugins/clp/clp.cpp": wanted})), 3)
+
     def test_a_part_that_is_not_in_the_table_is_named(self):
-        self.assertEqual(len(self.found({"core/misc/a.cpp": ""})), 1)
+        self.assertEqual(len(self.found({"core/misc/a.cpp": "", "solvers/misc/a.cpp": ""})), 2)
 
     def test_what_is_built_or_fetched_is_not_looked_at(self):
         self.assertEqual(self.found({"build/core/host/a.cpp": "#include <Highs.h>\n"}), [])

@@ -32,6 +32,21 @@ for above in ("solve", "sets", "gcs", "trajectory"):
 # Files hold programs and graphs, and no answers.
 CORE_KNOWS["io"] = {"linalg", "model", "sets", "gcs"}
 
+# Inside solvers, likewise.
+SOLVERS_KNOW = {
+    "linalg": set(),
+    "cones": {"linalg"},
+    "presolve": set(),
+    "conic": {"linalg", "cones", "presolve"},
+    "rounding": set(),
+}
+# Only this part orders matrices.
+ORDERING_PART = "linalg"
+ORDERING_HEADERS = {"amd.h", "metis.h"}
+
+# What no product may include.
+MEASURES = ("tests/", "benchmarks/")
+
 # Headers of solver libraries: core names no solver.
 SOLVER_HEADERS = re.compile(
     r"(Highs\w*|highs/.*|interfaces/highs_c_api|Clp\w*|Cbc\w*|Cgl\w*|Osi\w*|Coin\w*|coin/.*"
@@ -85,8 +100,8 @@ def check_core(part, header):
         return f"{part} may know {known}, not {target}"
     if SOLVER_HEADERS.fullmatch(header):
         return "core names no solver: a solver's library is a plugin's business"
-    if header.startswith(("solvers/", "plugins/", "tools/")):
-        return "core knows neither solvers nor plugins nor tools"
+    if header.startswith(("solvers/", "plugins/", "tools/") + MEASURES):
+        return "core knows neither solvers nor plugins nor tools, nor what tests it"
     return None
 
 
@@ -96,8 +111,28 @@ def check_outside(folder, header):
         return f"{folder} know the shared headers, never core"
     if header.startswith("switchyard/") and header.removeprefix("switchyard/") not in SHARED:
         return f"{folder} know of switchyard/ only {', '.join(sorted(SHARED))}"
-    if header.startswith("tools/") or (folder == "solvers" and header.startswith("plugins/")):
+    unknown = ("tools/",) + MEASURES + (("plugins/",) if folder == "solvers" else ())
+    if header.startswith(unknown):
         return f"{folder} do not know {header.split('/')[0]}"
+    return None
+
+
+def check_solvers(part, header):
+    target = header.split("/")[1] if header.startswith("solvers/") else None
+    if target and target != part and target not in SOLVERS_KNOW[part]:
+        known = " and ".join(sorted(SOLVERS_KNOW[part])) or "no other part of solvers"
+        return f"{part} may know {known}, not {target}"
+    if header in ORDERING_HEADERS and part != ORDERING_PART:
+        return f"orderings are the business of {ORDERING_PART}"
+    if SOLVER_HEADERS.fullmatch(header):
+        return "solvers are algorithms of our own: a library's are a plugin's business"
+    return check_outside("solvers", header)
+
+
+def check_benchmarks(header):
+    """They may know everything, but of the tests only what these share."""
+    if header.startswith("tests/") and not header.startswith("tests/support/"):
+        return "benchmarks know of tests only tests/support"
     return None
 
 
@@ -105,6 +140,11 @@ def include_mistakes(path, inside):
     part = part_of_core(inside)
     if part is not None and part not in CORE_KNOWS:
         yield f"{inside}: core has no part {part}; its parts are {', '.join(CORE_KNOWS)}"
+        return
+    folder = inside.parts[0]
+    solver = inside.parts[1] if folder == "solvers" and len(inside.parts) > 2 else None
+    if solver is not None and solver not in SOLVERS_KNOW:
+        yield f"{inside}: solvers has no part {solver}; its parts are {', '.join(SOLVERS_KNOW)}"
         return
     for number, line in enumerate(path.read_text(errors="replace").splitlines(), 1):
         found = INCLUDE.match(line)
@@ -115,8 +155,12 @@ def include_mistakes(path, inside):
             wrong = check_core(part, header)
         elif inside.parts[:2] == ("include", "switchyard"):
             wrong = check_shared(header, inside)
-        elif inside.parts[0] in ("plugins", "solvers"):
-            wrong = check_outside(inside.parts[0], header)
+        elif solver is not None:
+            wrong = check_solvers(solver, header)
+        elif folder in ("plugins", "solvers"):
+            wrong = check_outside(folder, header)
+        elif folder == "benchmarks":
+            wrong = check_benchmarks(header)
         if wrong:
             yield f"{inside}:{number}: includes {header}; {wrong}"
 
