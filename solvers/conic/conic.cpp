@@ -69,6 +69,7 @@ void Conic::Update(const sy_update& update) {
     Supports(host_, *update.problem);
   }
   problem_.Apply(update);
+  if ((update.whole & SY_UPDATES_HINTS) != 0) hinted_vars_ = update.problem->num_vars;
   if (stale_) prepared_.reset();
   if (update.num_gone_rows > 0 || update.num_gone_cones > 0 || update.more != nullptr)
     given_.reset();

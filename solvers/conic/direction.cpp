@@ -203,6 +203,7 @@ double InteriorPoint::Fourth(const KktStep& d) const {
 // it must be. So they are solved together, with the factors' answer to the constant as it is.
 void InteriorPoint::PrepareWhole() {
   const Shape& s = form_.shape;
+  if (more_.a_x.empty()) more_ = KktStep(s);
   for (Index j = 0; j < s.vars; ++j) right_.x[j] = -form_.q[j];
   std::copy_n(form_.b.begin() + s.conic_rows(), s.equations, right_.y.begin());
   right_.z = residuals_.h;

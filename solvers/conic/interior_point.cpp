@@ -27,7 +27,6 @@ InteriorPoint::InteriorPoint(const Form& form, Kkt& kkt, const InteriorPointOpti
     d->d = KktStep(s);
     d->ds.resize(s.slacks());
   }
-  more_ = KktStep(s);
   xi_.resize(s.slacks());
   p_x_.resize(s.vars);
   h_z_.resize(s.slacks());
