@@ -9,8 +9,10 @@
 namespace switchyard::conic {
 namespace {
 
-constexpr double kShare = 0.6;  // of the variables that blocks must hold to be worth it
-constexpr Index kFewest = 8;    // blocks
+constexpr double kShare = 0.6;        // of the variables that blocks must hold to be worth it
+constexpr std::size_t kShortRow = 4;  // entries
+constexpr Index kSmall = 40;          // variables of a block
+constexpr Index kFewest = 8;          // blocks
 
 class Sets {
  public:
@@ -75,6 +77,24 @@ void JoinRepeated(const Form& form, Sets& sets) {
   }
 }
 
+/// Variables of the largest block.
+Index Largest(const Blocks& blocks) {
+  std::vector<Index> size(blocks.count, 0);
+  for (const Index b : blocks.of_variable) {
+    if (b >= 0) ++size[b];
+  }
+  return size.empty() ? 0 : *std::ranges::max_element(size);
+}
+
+/// Inequalities that are condensed for their few variables.
+void JoinShortRows(const Form& form, Sets& sets) {
+  for (Index r = form.shape.cone_rows; r < form.shape.conic_rows(); ++r) {
+    const auto row = RowOf(form.A, r);
+    if (row.size() > kShortRow) continue;
+    for (const Index j : row) sets.Join(row[0], j);
+  }
+}
+
 /// Numbers the sets that are blocks, and finds the rows within one.
 Blocks FromSets(const Form& form, Sets& sets) {
   const Index n = form.shape.vars;
@@ -117,13 +137,20 @@ Blocks GivenBlocks(const Form& form, const std::vector<Index>& of_variable) {
 }
 
 Blocks FindBlocks(const Form& form) {
-  Sets sets(form.shape.vars);
-  JoinInseparable(form, sets);
-  JoinRepeated(form, sets);
-  Blocks blocks = FromSets(form, sets);
-  const auto held = std::ranges::count_if(blocks.of_variable, [](Index b) { return b >= 0; });
-  const bool worth = static_cast<double>(held) >= kShare * form.shape.vars;
-  return worth && blocks.count >= kFewest ? blocks : Blocks{};
+  // First with what short rows join, as long as that makes small blocks of it all: in large ones
+  // what little meets there would be eliminated as if all did.
+  for (const bool short_rows : {true, false}) {
+    Sets sets(form.shape.vars);
+    JoinInseparable(form, sets);
+    JoinRepeated(form, sets);
+    if (short_rows) JoinShortRows(form, sets);
+    Blocks blocks = FromSets(form, sets);
+    const auto held = std::ranges::count_if(blocks.of_variable, [](Index b) { return b >= 0; });
+    if (short_rows && Largest(blocks) > kSmall) continue;
+    const bool worth = static_cast<double>(held) >= kShare * form.shape.vars;
+    if (worth && blocks.count >= kFewest) return blocks;
+  }
+  return {};
 }
 
 }  // namespace switchyard::conic

@@ -21,8 +21,9 @@ struct Blocks {
 /// in P or in a cone is one block.
 Blocks GivenBlocks(const Form& form, const std::vector<Index>& of_variable);
 
-/// Variables belong together that meet in P, in a cone, or in inequalities over the very same
-/// variables. None where that leaves much of the problem out.
+/// Variables belong together that meet in P, in a cone, in inequalities over the very same
+/// variables, and in short ones as long as that makes small blocks. None where much of the problem
+/// is in none.
 Blocks FindBlocks(const Form& form);
 
 }  // namespace switchyard::conic
