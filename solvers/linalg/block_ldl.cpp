@@ -73,57 +73,69 @@ void BlockPlan::MakeBatches(const std::vector<BlockClass>& classes,
 // The rest's own entries, and one for every two rows of a border.
 void BlockPlan::PlanRest(const SymmetricPattern& pattern, const std::vector<Index>& rest_number) {
   const auto n = static_cast<Index>(rest_column.size());
-  struct Request {
-    Index row, column;  // row <= column
-    Index* answer;      // where the entry's number is wanted; nullptr: it is an entry of the matrix
-    Index entry;
-  };
-  std::vector<Request> requests;
-  for (Index j = 0; j < pattern.n; ++j) {
-    if (rest_number[j] < 0) continue;
-    for (Index e = pattern.start[j]; e < pattern.start[j + 1]; ++e) {
-      const Index a = rest_number[pattern.row[e]], b = rest_number[j];
-      if (a >= 0) requests.push_back({std::min(a, b), std::max(a, b), nullptr, e});
+  // Calls back with the row and column, row <= column, of each wanted entry of the rest, and who
+  // wants it: an entry of the matrix, or (~) one of all batches' pairs.
+  std::vector<Index> pairs;
+  const auto each = [&](auto&& take) {
+    for (Index j = 0; j < pattern.n; ++j) {
+      if (rest_number[j] < 0) continue;
+      for (Index e = pattern.start[j]; e < pattern.start[j + 1]; ++e) {
+        const Index a = rest_number[pattern.row[e]], b = rest_number[j];
+        if (a >= 0) take(std::min(a, b), std::max(a, b), e);
+      }
     }
-  }
-  for (Batch& batch : batches) {
-    const auto border = static_cast<std::size_t>(shapes[batch.shape].border);
-    const auto lanes = static_cast<std::size_t>(batch.lanes);
-    batch.pair.resize(border * (border + 1) / 2 * lanes);
-    Index* answer = batch.pair.data();
-    for (std::size_t a = 0; a < border; ++a) {
-      for (std::size_t b = 0; b <= a; ++b) {
-        for (std::size_t lane = 0; lane < lanes; ++lane, ++answer) {
-          const Index i = batch.border[a * lanes + lane], j = batch.border[b * lanes + lane];
-          requests.push_back({std::min(i, j), std::max(i, j), answer, -1});
+    Index pair = 0;
+    for (const Batch& batch : batches) {
+      const auto border = static_cast<std::size_t>(shapes[batch.shape].border);
+      const auto lanes = static_cast<std::size_t>(batch.lanes);
+      for (std::size_t a = 0; a < border; ++a) {
+        for (std::size_t b = 0; b <= a; ++b) {
+          for (std::size_t lane = 0; lane < lanes; ++lane) {
+            const Index i = batch.border[a * lanes + lane], j = batch.border[b * lanes + lane];
+            take(std::min(i, j), std::max(i, j), ~pair++);
+          }
         }
       }
     }
-  }
-  std::vector<std::size_t> start(n + 1, 0);  // of each column's requests, in order
-  for (const Request& r : requests) ++start[r.column + 1];
-  std::partial_sum(start.begin(), start.end(), start.begin());
-  std::vector<const Request*> order(requests.size());
-  std::vector<std::size_t> next(start.begin(), start.end() - 1);
-  for (const Request& r : requests) order[next[r.column]++] = &r;
+    pairs.resize(static_cast<std::size_t>(pair));
+  };
+  // By column, in the order of the calls.
+  std::vector<std::size_t> next(static_cast<std::size_t>(n) + 1, 0);
+  each([&](Index, Index column, Index) { ++next[column + 1]; });
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  std::vector<Index> row(next.back()), who(next.back());
+  each([&](Index i, Index column, Index wants) {
+    row[next[column]] = i;
+    who[next[column]++] = wants;
+  });
   rest_pattern.n = n;
   std::vector<Index> place(n, -1);
+  std::size_t k = 0;
   for (Index j = 0; j < n; ++j) {
     const Index begin = rest_pattern.nonzeros();
-    for (std::size_t k = start[j]; k < start[j + 1]; ++k) {
-      const Request& r = *order[k];
-      if (place[r.row] < begin) {
-        place[r.row] = static_cast<Index>(rest_pattern.row.size());
-        rest_pattern.row.push_back(r.row);
+    for (; k < next[j]; ++k) {  // by now where the column ends
+      if (place[row[k]] < begin) {
+        place[row[k]] = static_cast<Index>(rest_pattern.row.size());
+        rest_pattern.row.push_back(row[k]);
         rest_entry.push_back(-1);
       }
-      if (r.answer != nullptr) {
-        *r.answer = place[r.row];
+      if (who[k] < 0) {
+        pairs[~who[k]] = place[row[k]];
       } else {
-        rest_entry[place[r.row]] = r.entry;
+        rest_entry[place[row[k]]] = who[k];
       }
     }
     rest_pattern.start.push_back(static_cast<Index>(rest_pattern.row.size()));
+  }
+  GivePairs(pairs);
+}
+
+void BlockPlan::GivePairs(const std::vector<Index>& pairs) {
+  auto from = pairs.begin();
+  for (Batch& batch : batches) {
+    const auto until = from + std::ptrdiff_t{shapes[batch.shape].border_pairs()} * batch.lanes;
+    batch.pair.assign(from, until);
+    from = until;
   }
 }
 

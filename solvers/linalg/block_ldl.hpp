@@ -40,6 +40,8 @@ struct BlockPlan {
  private:
   void MakeBatches(const std::vector<BlockClass>& classes, const std::vector<Index>& rest_number);
   void PlanRest(const SymmetricPattern& pattern, const std::vector<Index>& rest_number);
+  /// Of all batches, one after the other.
+  void GivePairs(const std::vector<Index>& pairs);
 };
 
 /// Blocks are eliminated first, eight of one shape at a time: each step of the shape's elimination
