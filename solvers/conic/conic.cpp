@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 
+#include "solvers/conic/product_cone.hpp"
 #include "solvers/conic/run.hpp"
 #include "solvers/conic/warm_start.hpp"
 #include "switchyard/plugin.hpp"
@@ -30,6 +32,14 @@ sy_solver Conic::Describe() {
 }
 
 void Conic::Supports(const sy_host&, const sy_problem& problem) {
+  if (problem.nlp != nullptr) {
+    throw plugin::Failure(SY_E_UNSUPPORTED, "needs a problem without nonlinear functions");
+  }
+  for (std::int32_t j = 0; problem.integer != nullptr && j < problem.num_vars; ++j) {
+    if (problem.integer[j] == 0) continue;
+    throw plugin::Failure(SY_E_UNSUPPORTED,
+                          "needs continuous variables; x[" + std::to_string(j) + "] is integer");
+  }
   if (problem.P != nullptr && (problem.flags & SY_PROBLEM_CONVEX) == 0) {
     throw plugin::Failure(SY_E_UNSUPPORTED,
                           "needs a quadratic objective that is known to be convex "
@@ -100,18 +110,13 @@ void Conic::WarmStart(const sy_start& start) {
 /// What warm_start gave, as an iterate.
 std::optional<Iterate> Conic::Given() const {
   if (!given_) return std::nullopt;
-  const bool symmetric = std::ranges::all_of(prepared_->form().cones, [](const ConeGroup& g) {
-    return g.kind != SY_CONE_EXPONENTIAL && g.kind != SY_CONE_POWER;
-  });
-  if (!symmetric) return std::nullopt;
+  if (!ProductCone(prepared_->form()).symmetric()) return std::nullopt;
   return AsIterate(prepared_->presolve().Forth(*given_), prepared_->form());
 }
 
 void Conic::Solve(const sy_control& control, sy_result& result) {
-  if (stale_) {
-    prepared_.reset();
-    Prepare();
-  }
+  if (stale_) prepared_.reset();
+  if (prepared_ == nullptr) Prepare();
   Run run(problem_, *prepared_, options_, host_, control);
   const bool may_continue = (control.flags & SY_CONTINUE) != 0 && last_;
   const std::optional<Iterate> from = may_continue ? last_ : Given();

@@ -145,10 +145,9 @@ void InteriorPoint::KeepBest(int iteration) {
 }
 
 Solution InteriorPoint::Conclude(Ending ending, int iteration) {
-  if (ending == Ending::kInfeasible || ending == Ending::kUnbounded) {
-    return {ending, at_, residuals_.distance, iteration};
-  }
-  if (ending == Ending::kOptimal) return {ending, at_, residuals_.distance, iteration};
+  const bool arrived =
+      ending == Ending::kOptimal || ending == Ending::kInfeasible || ending == Ending::kUnbounded;
+  if (arrived) return {ending, at_, residuals_.distance, iteration};
   const bool would_do = best_distance_.WorstByTerms() <= options_.tolerance;
   if (would_do && (!judge_ || judge_(Ending::kOptimal, best_))) ending = Ending::kOptimal;
   return {ending, best_, best_distance_, iteration};

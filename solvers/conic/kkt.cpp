@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "solvers/cones/kinds.hpp"
 #include "solvers/conic/slacks.hpp"
@@ -40,23 +41,19 @@ void Clear(KktStep& step) {
 }  // namespace
 
 Kkt::Kkt(const Form& form, const Blocks& blocks)
-    : form_(form),
-      plan_(std::make_shared<const KktPlan>(form, blocks)),
-      ldl_(plan_->pattern, plan_->sign, {plan_->group, kFactorizations}, plan_->block,
-           plan_->num_blocks),
-      constant_(plan_->Constant(form)),
-      left_(form.shape),
-      image_(form.shape),
-      step_(form.shape) {
-  ListKeptCones();
-  MakeRoom();
-  Restart();
-}
+    : Kkt(std::make_shared<const KktPlan>(form, blocks), form) {}
 
-Kkt::Kkt(const Form& form, const Kkt& alike)
+Kkt::Kkt(const std::shared_ptr<const KktPlan>& plan, const Form& form)
+    : Kkt(form, plan,
+          linalg::BlockLdl(plan->pattern, plan->sign, {plan->group, kFactorizations}, plan->block,
+                           plan->num_blocks)) {}
+
+Kkt::Kkt(const Form& form, const Kkt& alike) : Kkt(form, alike.plan_, alike.ldl_) {}
+
+Kkt::Kkt(const Form& form, std::shared_ptr<const KktPlan> plan, const linalg::BlockLdl& symbolic)
     : form_(form),
-      plan_(alike.plan_),
-      ldl_(alike.ldl_),
+      plan_(std::move(plan)),
+      ldl_(symbolic),
       constant_(plan_->Constant(form)),
       left_(form.shape),
       image_(form.shape),

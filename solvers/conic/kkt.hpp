@@ -116,6 +116,8 @@ class Kkt {
   Outcome Correct(const ProductCone& cones, const Triple& right, const Goal& goal, KktStep& found);
   void Orthogonalize(const std::vector<Direction>& before, const Goal& goal);
 
+  Kkt(const std::shared_ptr<const KktPlan>& plan, const Form& form);
+  Kkt(const Form& form, std::shared_ptr<const KktPlan> plan, const linalg::BlockLdl& symbolic);
   void ListKeptCones();
   void MakeRoom();
 

@@ -8,8 +8,8 @@
 namespace switchyard::conic {
 
 struct Options {
-  bool presolve = true;
-  bool blocks = true;
+  int presolve = 1;  // a switch, as the next one
+  int blocks = 1;
   int corrections = 4;
   int max_iterations = 200;
 

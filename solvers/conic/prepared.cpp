@@ -21,7 +21,7 @@ bool HasFixed(const ProblemData& p) {
 presolve::Limits LimitsOf(const ProblemData& problem, const Options& options,
                           std::uint64_t updates) {
   if (HasFixed(problem)) return {};
-  if (!options.presolve) return {false, false, false};
+  if (options.presolve == 0) return {false, false, false};
   return {(updates & SY_UPDATES_BOUNDS) == 0, (updates & SY_UPDATES_VECTORS) == 0,
           (updates & SY_UPDATES_VALUES) == 0};
 }
@@ -44,7 +44,8 @@ Prepared::Prepared(const ProblemData& problem, Index hinted_vars, const Options&
   if (shares_) {
     kkt_ = std::make_unique<Kkt>(form_, *before->kkt_);
   } else {
-    kkt_ = std::make_unique<Kkt>(form_, options.blocks ? BlocksOf(problem, hinted_vars) : Blocks{});
+    kkt_ = std::make_unique<Kkt>(form_,
+                                 options.blocks != 0 ? BlocksOf(problem, hinted_vars) : Blocks{});
   }
 }
 

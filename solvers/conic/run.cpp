@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "switchyard/problem_update.hpp"
 #include "switchyard/safe_bound.hpp"
 
 namespace switchyard::conic {
@@ -15,11 +16,11 @@ using presolve::Answer;
 using presolve::Meaning;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kDefaultTolerance = 1e-8;
 
 /// The tolerance of all residuals and of the gap; where only one is given, it is that one.
 double ToleranceOf(const sy_control& control) {
-  constexpr double kDefault = 1e-8;
-  if (std::isnan(control.feasibility) && std::isnan(control.optimality)) return kDefault;
+  if (std::isnan(control.feasibility) && std::isnan(control.optimality)) return kDefaultTolerance;
   return std::fmin(control.feasibility, control.optimality);
 }
 
@@ -62,6 +63,13 @@ void DropOpenDuals(const ProblemData& p, Answer& a) {
     const double upper = p.x_upper.empty() ? kInfinity : p.x_upper[j];
     if (std::isinf(a.x_dual[j] > 0 ? lower : upper)) a.x_dual[j] = 0;
   }
+}
+
+/// What is proven of boxes must not rest on a cone that is not there.
+Problem WithoutConesThatAreOff(ProblemData p) {
+  if (!p.cone_on.empty()) problem_detail::KeepCones(std::vector<std::uint8_t>(p.cone_on), p);
+  p.cone_on.clear();
+  return Problem(std::move(p));
 }
 
 }  // namespace
@@ -150,15 +158,19 @@ void Run::Log(int iteration, const Iterate& at, const Distance& d) const {
 bool Run::ProvesCutoff(const Iterate& at, const Distance& distance) {
   if (!(control_.cutoff < kInfinity) || at.tau <= at.kappa) return false;
   if (distance.dual_objective + prepared_.form().offset < control_.cutoff) return false;
-  if (!boxes_) boxes_ = ProvenBoxes(problem_.view(), control_.cutoff);
-  if (boxes_->infeasible) {
+  if (!below_) {
+    below_ = {ProvenBoxes(WithoutConesThatAreOff(problem_.data()).view(), control_.cutoff),
+              Curvature(problem_.view())};
+  }
+  const Boxes& boxes = below_->boxes;
+  if (boxes.infeasible) {
     proven_ = control_.cutoff;
-  } else {
+  } else {  // the duals of cones that are off are 0
     const Answer answer = prepared_.Back(at, Meaning::kOptimum);
-    const std::vector<double> curvature = Curvature(problem_.view());
-    const SafeBound safe = SafeDualBound(
-        problem_.view(), answer.x.data(), answer.row_dual.data(), answer.cone_dual.data(),
-        boxes_->lower.data(), boxes_->upper.data(), curvature.empty() ? nullptr : curvature.data());
+    const SafeBound safe =
+        SafeDualBound(problem_.view(), answer.x.data(), answer.row_dual.data(),
+                      answer.cone_dual.data(), boxes.lower.data(), boxes.upper.data(),
+                      below_->curvature.empty() ? nullptr : below_->curvature.data());
     proven_ = std::max(proven_, std::min(safe.value, control_.cutoff));
   }
   return proven_ >= control_.cutoff;
@@ -196,11 +208,11 @@ bool Run::JudgePoint(const Iterate& at) {
 void Run::Conclude(Solution found) {
   switch (found.ending) {
     case Ending::kOptimal:
-      termination_ = SY_OPTIMAL;
-      break;
+      ConcludeOptimal(std::move(found.at));
+      return;
     case Ending::kInfeasible:
       termination_ = SY_INFEASIBLE;
-      Scale(1 / Worth(problem_.data(), answer_));
+      ScaleToWorth();
       return;
     case Ending::kUnbounded:
       termination_ = SY_UNBOUNDED;
@@ -214,17 +226,10 @@ void Run::Conclude(Solution found) {
     default:
       termination_ = SY_NUMERICAL_TROUBLE;
   }
-  if (termination_ == SY_OPTIMAL) {
-    proven_ = std::max(proven_, std::min(errors_.objective, errors_.dual_objective));
-    optimum_ = std::move(found.at);
-    return;
-  }
   answer_ = Answer();
   has_answer_ = false;
   if (JudgePoint(found.at) && found.ending == Ending::kTrouble) {
-    termination_ = SY_OPTIMAL;
-    optimum_ = std::move(found.at);
-    proven_ = std::max(proven_, std::min(errors_.objective, errors_.dual_objective));
+    ConcludeOptimal(std::move(found.at));
     return;
   }
   CloseStationarity(problem_.data(), answer_);
@@ -233,8 +238,19 @@ void Run::Conclude(Solution found) {
   proven_ = std::max(proven_, safe.value);
 }
 
-void Run::Scale(double unit) {
-  if (!std::isfinite(unit)) unit = 1 / Largest(answer_);
+// Stopped at a loose tolerance, the duals are to leave a bound: what they leave of stationarity is
+// that of bounds.
+void Run::ConcludeOptimal(Iterate at) {
+  termination_ = SY_OPTIMAL;
+  proven_ = std::max(proven_, std::min(errors_.objective, errors_.dual_objective));
+  optimum_ = std::move(at);
+  if (tolerance_ > kDefaultTolerance) CloseStationarity(problem_.data(), answer_);
+}
+
+/// A contradiction is worth 1, if it is worth anything but for rounding.
+void Run::ScaleToWorth() {
+  const double worth = Worth(problem_.data(), answer_);
+  const double unit = 1 / (worth > 0 ? worth : Largest(answer_));
   for (auto* duals : {&answer_.x_dual, &answer_.row_dual, &answer_.cone_dual}) {
     for (double& d : *duals) d *= unit;
   }

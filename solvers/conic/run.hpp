@@ -4,6 +4,7 @@
 #include <chrono>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "solvers/conic/answer_check.hpp"
 #include "solvers/conic/interior_point.hpp"
@@ -35,7 +36,8 @@ class Run {
   bool Tell(int iteration, const Distance& distance) const;
   void Log(int iteration, const Iterate& at, const Distance& distance) const;
   void Conclude(Solution found);
-  void Scale(double unit);
+  void ConcludeOptimal(Iterate at);
+  void ScaleToWorth();
   void Describe();
   [[nodiscard]] double Seconds() const;
   [[nodiscard]] sy_point_kind KindOf(double error) const;
@@ -49,7 +51,11 @@ class Run {
   double tolerance_;
 
   std::optional<sy_termination> stopped_;  // by the watch
-  std::optional<Boxes> boxes_;             // of what is below the cutoff
+  struct BelowCutoff {
+    Boxes boxes;                    // that hold it all
+    std::vector<double> curvature;  // of P: see SafeDualBound
+  };
+  std::optional<BelowCutoff> below_;
   std::optional<Iterate> optimum_;
   presolve::Answer answer_;
   AnswerErrors errors_;

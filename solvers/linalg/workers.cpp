@@ -2,10 +2,6 @@
 
 namespace switchyard::linalg {
 
-Workers::Workers(int threads) {
-  for (int i = 1; i < threads; ++i) others_.emplace_back([this] { Work(); });
-}
-
 Workers::~Workers() {
   {
     const std::lock_guard lock(mutex_);
@@ -16,6 +12,9 @@ Workers::~Workers() {
 }
 
 void Workers::Each(std::size_t count, const std::function<void(std::size_t)>& body) {
+  while (static_cast<int>(others_.size()) + 1 < threads_) {
+    others_.emplace_back([this] { Work(); });
+  }
   {
     const std::lock_guard lock(mutex_);
     body_ = &body;

@@ -10,16 +10,16 @@
 
 namespace switchyard::linalg {
 
-/// The thread that asks and `threads` - 1 others, which sleep between loops and end with the
-/// object.
+/// The thread that asks and `threads` - 1 others, which come with the first loop, sleep between
+/// loops and end with the object.
 class Workers {
  public:
-  explicit Workers(int threads);
+  explicit Workers(int threads) : threads_(threads) {}
   Workers(const Workers&) = delete;
   Workers& operator=(const Workers&) = delete;
   ~Workers();
 
-  [[nodiscard]] int threads() const { return static_cast<int>(others_.size()) + 1; }
+  [[nodiscard]] int threads() const { return threads_; }
   /// body(i) once for each i in [0, count), in any order, on any of the threads; it must not throw.
   void Each(std::size_t count, const std::function<void(std::size_t)>& body);
 
@@ -27,6 +27,7 @@ class Workers {
   void Work();
   void Share();
 
+  const int threads_;
   std::mutex mutex_;
   std::condition_variable begun_, done_;
   const std::function<void(std::size_t)>* body_ = nullptr;

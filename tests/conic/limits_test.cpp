@@ -194,5 +194,35 @@ TEST(Progress, TellsOfEachIterationOnce) {
   EXPECT_LE(context.told.back().primal_residual, 1e-8);
 }
 
+// x >= 1 by a cone that is off: below a cutoff of 0.5 there is everything from -10 on.
+TEST(Cutoff, RestsOnNoConeThatIsOff) {
+  ProblemData d;
+  d.num_vars = 1;
+  d.q = {1};
+  d.x_lower = {-10};
+  d.x_upper = {10};
+  d.P = d.A = Csc(0, 1);
+  d.P.rows = 1;
+  d.F = Csc(1, 1);
+  d.F.row = {0};
+  d.F.value = {1};
+  d.F.start = {0, 1};
+  d.g = {-1};
+  d.cones = {{SY_CONE_NONNEGATIVE, 1, 0}};
+  Solver solver(d, SY_UPDATES_SWITCH);
+  sy_control control = Freely();
+  const std::int32_t cone[] = {0};
+  const std::uint8_t off[] = {0};
+  sy_update update = Nothing();
+  update.num_cones = 1;
+  update.cone = cone;
+  update.cone_on = off;
+  solver.Update(update);
+  control.cutoff = 0.5;
+  const Found found = solver.Solve(control);
+  EXPECT_EQ(found.result.termination, SY_OPTIMAL) << found.text;
+  EXPECT_NEAR(found.result.objective, -10, 1e-6);
+}
+
 }  // namespace
 }  // namespace switchyard::conic
