@@ -21,11 +21,13 @@ SHARED = {"abi.h", "hints.h", "plugin.hpp", "problem.hpp", "problem_update.hpp",
 # the model.
 CORE_KNOWS = {
     "linalg": set(),
+    "functions": {"linalg"},
+    "symbolic": {"functions"},
     "problem": {"linalg"},
     "bridges": {"linalg", "problem"},
     "host": {"linalg", "problem", "bridges"},
-    "model": {"linalg"},
-    "lower": {"linalg", "problem", "model"},
+    "model": {"linalg", "functions", "symbolic"},
+    "lower": {"linalg", "functions", "symbolic", "problem", "model"},
 }
 for above in ("solve", "sets", "gcs", "trajectory"):
     CORE_KNOWS[above] = set(CORE_KNOWS)
