@@ -70,6 +70,7 @@ const std::vector<BridgeKind>& BridgeKinds() {
   static const std::vector<BridgeKind> kinds = {
       BoundsToRows(),         RowsToCones(),          LinearConesToRows(),
       RotatedToSecondOrder(), SecondOrderToRotated(), QuadraticObjectiveToCone(),
+      ConesToFunctions(),
   };
   return kinds;
 }

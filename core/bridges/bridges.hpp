@@ -11,6 +11,7 @@ BridgeKind LinearConesToRows();
 BridgeKind RotatedToSecondOrder();
 BridgeKind SecondOrderToRotated();
 BridgeKind QuadraticObjectiveToCone();
+BridgeKind ConesToFunctions();
 
 /// The problem without the cones that are off: see switched_off_cones.cpp.
 Bridged LeaveOutSwitchedOff(ProblemData d);

@@ -60,6 +60,7 @@ Csc ConeRows(const Csc& S) {
 Bridged Apply(ProblemData d) {
   Require((d.flags & SY_PROBLEM_CONVEX) != 0,
           "a nonconvex quadratic objective has no form as a cone");
+  Require(d.nlp == nullptr, "a quadratic objective beside nonlinear functions stays as it is");
   const auto vars = static_cast<std::size_t>(d.num_vars);
   const auto cone_rows = static_cast<std::size_t>(d.num_cone_rows());
   const SemidefiniteFactor factor = FactorSemidefinite(d.P);

@@ -33,10 +33,6 @@ std::vector<B> Untagged(const std::vector<GraphOfConvexSets::Tagged<B>>& terms,
 
 }  // namespace
 
-Parallelism Parallelism::Max() {
-  return Parallelism(static_cast<int>(std::thread::hardware_concurrency()));
-}
-
 // ---- Vertex ----
 
 GraphOfConvexSets::Vertex::Vertex(VertexId id, std::shared_ptr<const ConvexSet> set,

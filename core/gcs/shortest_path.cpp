@@ -196,7 +196,8 @@ bool Search::Load() {
     own["trials"] = options_.max_rounding_trials;
     own["flow_tolerance"] = options_.flow_tolerance;
   }
-  const BackendWish wish{strategy ? kRelaxAndRound : NamesOf(options_.solver), &options, 0, {}};
+  const BackendWish wish{
+      strategy ? kRelaxAndRound : NamesOf(options_.solver), &options, host_.table(), 0, {}};
   if (!options_.dump.empty()) WriteProblem(transcription_->problem().view(), options_.dump);
   choice_ = ChooseBackend(host_, transcription_->problem().view(), wish);
   result().considered = choice_.considered;

@@ -61,6 +61,10 @@ void ForgetAnswer(sy_result& result) {
   result.bound = -kInfinity;
 }
 
+std::int32_t NumFunctions(const ProblemData& d) {
+  return d.nlp != nullptr ? d.nlp->num_constraints : 0;
+}
+
 void CopyOut(const std::vector<double>& from, double* to, std::int32_t count) {
   if (to == nullptr) return;
   std::fill(to, to + count, 0.0);
@@ -69,7 +73,29 @@ void CopyOut(const std::vector<double>& from, double* to, std::int32_t count) {
 
 }  // namespace
 
+namespace {
+
+// Functions without derivatives are for solvers that need none.
+void CheckDerivatives(const sy_problem& problem, const Backend& backend) {
+  if (problem.nlp == nullptr) return;
+  const std::uint32_t provides = problem.nlp->provides;
+  const auto lacks = [&](std::uint64_t trait, std::uint32_t bits) {
+    return (backend.facts.traits & trait) != 0 && (provides & bits) != bits;
+  };
+  if (lacks(SY_NEEDS_GRADIENT, SY_GRADIENT | SY_JACOBIAN)) {
+    throw BackendError(SY_E_UNSUPPORTED, backend.id,
+                       "needs derivatives, and a function of the problem has none");
+  }
+  if (lacks(SY_NEEDS_HESSIAN, SY_HESSIAN)) {
+    throw BackendError(SY_E_UNSUPPORTED, backend.id,
+                       "needs second derivatives, and a function of the problem has none");
+  }
+}
+
+}  // namespace
+
 BridgePlan PlanFor(const sy_problem& problem, const Backend& backend) {
+  CheckDerivatives(problem, backend);
   const bool integer = problem.integer != nullptr;
   const Features features = FeaturesOf(problem);
   Planned planned = PlanBridges(features, AbilitiesOf(backend.facts, integer));
@@ -187,7 +213,7 @@ void Facade::Update(const sy_update& update) {
     const BridgePlan plan = PlanFor(next->view(), *context_->backend);
     in_step_ = false;
     std::swap(problem_, next);
-    if (!PassStraight(update, plan)) SendDifference(plan);
+    if (!PassStraight(update, plan)) SendDifference(update, plan);
     if (IsVectorsAlone(update) && next != problem_) spare_ = std::move(next);
     in_step_ = true;
   });
@@ -213,20 +239,21 @@ bool Facade::PassStraight(const sy_update& update, const BridgePlan& plan) {
   return true;
 }
 
-void Facade::SendDifference(const BridgePlan& plan) {
+void Facade::SendDifference(const sy_update& update, const BridgePlan& plan) {
   auto fresh = std::make_unique<BridgeChain>(*problem_, plan);
   if (plan != plan_ || fresh->empty() || chain_->empty()) return Reload();
   std::uint64_t kinds = ProblemDifference(chain_->image().data(), fresh->image().data());
   if (passed_bounds_) kinds |= SY_UPDATES_BOUNDS;
+  kinds |= update.whole & SY_UPDATES_NLP;  // functions are not compared
   if ((kinds & ~(facts().updates & declared_)) != 0) return Reload();
   if (kinds == 0) {
     if (held_ == nullptr) held_ = std::move(chain_);
   } else {
-    sy_update update{};
-    update.size = sizeof update;
-    update.whole = static_cast<std::uint32_t>(kinds);
-    update.problem = &fresh->image().view();
-    Send(update);
+    sy_update difference{};
+    difference.size = sizeof difference;
+    difference.whole = static_cast<std::uint32_t>(kinds);
+    difference.problem = &fresh->image().view();
+    Send(difference);
     held_.reset();
     passed_bounds_ = false;
   }
@@ -244,7 +271,8 @@ void Facade::WarmStart(const sy_start& start) {
       return from == nullptr ? std::vector<double>() : std::vector<double>(from, from + count);
     };
     Vectors v{copy(start.x, d.num_vars), copy(start.x_dual, d.num_vars),
-              copy(start.row_dual, d.num_rows()), copy(start.cone_dual, d.num_cone_rows())};
+              copy(start.row_dual, d.num_rows()), copy(start.cone_dual, d.num_cone_rows()),
+              copy(start.nlp_dual, NumFunctions(d))};
     chain_->Forward(v);
     const auto data = [](const std::vector<double>& from) {
       return from.empty() ? nullptr : from.data();
@@ -254,6 +282,7 @@ void Facade::WarmStart(const sy_start& start) {
     mapped.x_dual = data(v.x_dual);
     mapped.row_dual = data(v.row_dual);
     mapped.cone_dual = data(v.cone_dual);
+    mapped.nlp_dual = data(v.nlp_dual);
     mapped.x_basis = nullptr;  // a basis speaks of rows, which have moved
     mapped.row_basis = nullptr;
     InBackend([&] { instance_->WarmStart(mapped); });
@@ -279,6 +308,7 @@ void Facade::Solve(const sy_control& control, sy_result& result) {
       found.x_dual = buffer(v.x_dual, image.num_vars, 0);
       found.row_dual = buffer(v.row_dual, image.num_rows(), 0);
       found.cone_dual = buffer(v.cone_dual, image.num_cone_rows(), 0);
+      found.nlp_dual = buffer(v.nlp_dual, NumFunctions(image), 0);
       found.x_basis = found.row_basis = nullptr;
       found.relaxed_x = nullptr;
     }
@@ -302,6 +332,7 @@ void Facade::Recover(sy_result& found, const Vectors& mapped, sy_result& result)
   CopyOut(v.x_dual, wanted.x_dual, d.num_vars);
   CopyOut(v.row_dual, wanted.row_dual, d.num_rows());
   CopyOut(v.cone_dual, wanted.cone_dual, d.num_cone_rows());
+  CopyOut(v.nlp_dual, wanted.nlp_dual, NumFunctions(d));
   if (wanted.x_basis != nullptr) std::memset(wanted.x_basis, SY_BASIS_UNKNOWN, d.q.size());
   if (wanted.row_basis != nullptr) {
     std::memset(wanted.row_basis, SY_BASIS_UNKNOWN, d.row_lower.size());
@@ -310,6 +341,7 @@ void Facade::Recover(sy_result& found, const Vectors& mapped, sy_result& result)
   result.x_dual = wanted.x_dual;
   result.row_dual = wanted.row_dual;
   result.cone_dual = wanted.cone_dual;
+  result.nlp_dual = wanted.nlp_dual;
   result.x_basis = wanted.x_basis;
   result.row_basis = wanted.row_basis;
   result.relaxed_x = wanted.relaxed_x;
@@ -338,6 +370,7 @@ void Facade::CheckAnswer(sy_result& result) const {
     check("x_dual", result.x_dual, d.num_vars);
     check("row_dual", result.row_dual, d.num_rows());
     check("cone_dual", result.cone_dual, d.num_cone_rows());
+    check("nlp_dual", result.nlp_dual, NumFunctions(d));
   }
 }
 

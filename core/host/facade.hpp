@@ -55,7 +55,7 @@ class Facade {
   std::shared_ptr<Problem> Next(const sy_update& update);
   void Reload();
   void NeedInStep() const;
-  void SendDifference(const BridgePlan& plan);
+  void SendDifference(const sy_update& update, const BridgePlan& plan);
   bool PassStraight(const sy_update& update, const BridgePlan& plan);
   void Send(const sy_update& update);
   void Recover(sy_result& found, const Vectors& mapped, sy_result& result) const;

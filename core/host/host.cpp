@@ -11,6 +11,7 @@
 #include "core/host/facade.hpp"
 #include "core/host/module.hpp"
 #include "core/host/places.hpp"
+#include "core/host/preferences.hpp"
 #include "switchyard/error.hpp"
 #include "switchyard/plugin.hpp"
 
@@ -57,6 +58,7 @@ struct Host::State {
   std::vector<PluginProblem> problems;
   std::map<std::string, std::map<std::string, std::string>> user_options;  // by backend's id
   std::map<std::pair<std::string, std::string>, std::string> settings;     // given out as pointers
+  Preferences preferences;                                                 // said by the program
   LogSink log;
   sy_host table{};
   sy_solvers solvers{};
@@ -314,15 +316,19 @@ bool Better(const Candidate& a, const Candidate& b) {
 }  // namespace
 
 std::vector<Candidate> Host::Rank(const sy_problem& problem, const std::string& preference) const {
-  const char* configured = std::getenv("SWITCHYARD_SOLVERS");
-  std::vector<std::string> named = Split(preference, ',');
-  const bool only_named = !named.empty();
-  if (!only_named && configured != nullptr) named = Split(configured, ',');
+  const bool only_named = !preference.empty();
+  Preference wanted{preference, ""};
+  if (!only_named) wanted = PreferenceFor(ProgramTypeOf(problem));
   std::vector<Candidate> first;
   std::vector<Candidate> rest;
-  for (const std::string& name : named) {
+  for (const std::string& name : Split(wanted.names, ',')) {
     const Backend* backend = Find(name);
-    if (backend != nullptr) first.push_back(Judge(*this, *backend, problem, *Facade(*backend)));
+    if (backend == nullptr) continue;
+    first.push_back(Judge(*this, *backend, problem, *Facade(*backend)));
+    if (!only_named) {
+      first.back().why += Text(first.back().why.empty() ? "" : "; ", "preferred for ",
+                               to_string(ProgramTypeOf(problem)), " by ", wanted.source);
+    }
   }
   for (const Backend* backend : backends()) {
     const bool is_named = std::any_of(first.begin(), first.end(),
@@ -336,6 +342,44 @@ std::vector<Candidate> Host::Rank(const sy_problem& problem, const std::string& 
       std::find_if(first.begin(), first.end(), [](const Candidate& c) { return !c.suitable; });
   first.insert(place, rest.begin(), rest.end());
   return first;
+}
+
+void Host::Prefer(std::optional<ProgramType> type, const std::string& names) {
+  const std::lock_guard lock(state_->mutex);
+  for (const std::string& name : Split(names, ',')) {
+    if (Find(name) != nullptr) continue;
+    std::vector<std::string> known;
+    for (const Backend* one : backends()) known.push_back(one->short_name);
+    const std::string near = NearestName(name, known);
+    Refuse("there is no backend \"", name, "\" to prefer",
+           near.empty() ? "" : "; the nearest is \"" + near + "\"");
+  }
+  state_->preferences.Set(type, names, "the program");
+}
+
+Preference Host::PreferenceFor(ProgramType type) const {
+  const std::lock_guard lock(state_->mutex);
+  const Preference own = state_->preferences.For(type);
+  return own.names.empty() ? ConfiguredPreferences().For(type) : own;
+}
+
+bool Host::Serves(const Backend& backend, ProgramType type) const {
+  if (!Ready(backend).ready) return false;
+  const auto is = [&](std::initializer_list<ProgramType> types) {
+    return std::find(types.begin(), types.end(), type) != types.end();
+  };
+  using enum ProgramType;
+  Features needed = SY_ACCEPTS_BOUNDS | SY_ACCEPTS_ROWS;
+  const bool integer = is({kMILP, kMIQP, kMISOCP, kMISDP, kMICGP, kMINLP});
+  if (integer) needed |= SY_ACCEPTS_INTEGER;
+  if (is({kQP, kMIQP, kQuadraticCostConicConstraint})) needed |= SY_ACCEPTS_QUADRATIC_OBJECTIVE;
+  if (is({kSOCP, kMISOCP, kQuadraticCostConicConstraint})) {
+    needed |= ConeFeature(SY_CONE_SECOND_ORDER);
+  }
+  if (is({kSDP, kMISDP})) needed |= ConeFeature(SY_CONE_PSD);
+  if (is({kCGP, kMICGP})) needed |= ConeFeature(SY_CONE_EXPONENTIAL);
+  if (is({kNLP, kMINLP})) needed |= SY_ACCEPTS_NLP;
+  return PlanBridges(needed, AbilitiesOf(backend.facts, integer)).found;
 }
 
 const sy_solver* Host::State::Find(const Host& host, const sy_wish& wish) const {

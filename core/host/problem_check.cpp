@@ -11,11 +11,13 @@ namespace {
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
-void CheckMatrix(const char* name, const sy_csc& m, std::int32_t rows, std::int32_t cols) {
+// The pattern alone, where `with_values` is false.
+void CheckMatrix(const char* name, const sy_csc& m, std::int32_t rows, std::int32_t cols,
+                 bool with_values = true) {
   Require(m.rows == rows && m.cols == cols, name, " needs ", rows, " x ", cols, ", got ", m.rows,
           " x ", m.cols);
   Require(m.start != nullptr && m.start[0] == 0, name, ": column starts must begin at 0");
-  Require(m.start[m.cols] == 0 || (m.row != nullptr && m.value != nullptr), name,
+  Require(m.start[m.cols] == 0 || (m.row != nullptr && (m.value != nullptr || !with_values)), name,
           " needs rows and values of its entries");
   for (std::int32_t j = 0; j < m.cols; ++j) {
     Require(m.start[j] <= m.start[j + 1], name, ": the starts of column ", j, " do not ascend");
@@ -26,8 +28,8 @@ void CheckMatrix(const char* name, const sy_csc& m, std::int32_t rows, std::int3
               m.row[k], " of ", rows);
       Require(k == m.start[j] || m.row[k - 1] < m.row[k], name, ": the rows of column ", j,
               " do not ascend");
-      Require(std::isfinite(m.value[k]), name, ": the coefficient of x[", j, "] in row ", m.row[k],
-              " is ", m.value[k]);
+      Require(!with_values || std::isfinite(m.value[k]), name, ": the coefficient of x[", j,
+              "] in row ", m.row[k], " is ", with_values ? m.value[k] : 0);
     }
   }
 }
@@ -69,14 +71,28 @@ void CheckCones(const sy_problem& problem) {
           problem.num_cone_rows);
 }
 
-void CheckObjectiveMatrix(const sy_csc& P, std::int32_t vars) {
-  CheckMatrix("P", P, vars, vars);
-  for (std::int32_t j = 0; j < vars; ++j) {
+void CheckUpperTriangle(const char* name, const sy_csc& P) {
+  for (std::int32_t j = 0; j < P.cols; ++j) {
     const std::int32_t end = P.start[j + 1];
     if (end == P.start[j]) continue;
-    Require(P.row[end - 1] <= j, "P is given by its upper triangle, but has an entry in row ",
+    Require(P.row[end - 1] <= j, name, " is given by its upper triangle, but has an entry in row ",
             P.row[end - 1], " of column ", j);
   }
+}
+
+void CheckFunctions(const sy_nlp& nlp, std::int32_t vars) {
+  const std::int32_t rows = nlp.num_constraints;
+  Require(rows >= 0, "the functions have ", rows, " constraints");
+  Require(nlp.evaluate != nullptr, "the problem has functions, but no way to evaluate them");
+  Require(rows == 0 || (nlp.lower != nullptr && nlp.upper != nullptr),
+          "the functions' constraints need bounds");
+  CheckBounds("c", nlp.lower, nlp.upper, rows);
+  if ((nlp.provides & SY_JACOBIAN) != 0) {
+    CheckMatrix("the Jacobian", nlp.jacobian, rows, vars, false);
+  }
+  if ((nlp.provides & SY_HESSIAN) == 0) return;
+  CheckMatrix("the Hessian", nlp.hessian, vars, vars, false);
+  CheckUpperTriangle("the Hessian", nlp.hessian);
 }
 
 }  // namespace
@@ -99,7 +115,11 @@ void CheckProblem(const sy_problem& problem) {
   Require(problem.num_vars >= 0 && problem.num_rows >= 0 && problem.num_cones >= 0 &&
               problem.num_cone_rows >= 0,
           "a problem's counts cannot be negative");
-  if (problem.P != nullptr) CheckObjectiveMatrix(*problem.P, problem.num_vars);
+  if (problem.P != nullptr) {
+    CheckMatrix("P", *problem.P, problem.num_vars, problem.num_vars);
+    CheckUpperTriangle("P", *problem.P);
+  }
+  if (problem.nlp != nullptr) CheckFunctions(*problem.nlp, problem.num_vars);
   if (problem.num_rows > 0) {
     Require(problem.A != nullptr, "the problem has rows, but no matrix A");
     CheckMatrix("A", *problem.A, problem.num_rows, problem.num_vars);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/model/quadratic_cone.hpp"
 #include "core/problem/difference.hpp"
 
 namespace switchyard {
@@ -38,9 +39,16 @@ void WriteQuadratic(const SparseMatrix& Q, const std::vector<int>& index, double
 
 }  // namespace
 
-Lowering::Lowering(const MathematicalProgram& program) : stamps_(StampsOf(program)) {
+Lowering::Lowering(const MathematicalProgram& program, Quadratics form)
+    : form_(form), stamps_(StampsOf(program)) {
   Write(program);
-  problem_ = Problem(builder_.Finish());
+  problem_ = Problem(Finished());
+}
+
+ProblemData Lowering::Finished() {
+  ProblemData data = builder_.Finish();
+  data.nlp = nonlinear_ != nullptr ? &nonlinear_->record() : nullptr;
+  return data;
 }
 
 Lowering::Stamps Lowering::StampsOf(const MathematicalProgram& program) {
@@ -51,6 +59,8 @@ Lowering::Stamps Lowering::StampsOf(const MathematicalProgram& program) {
   };
   return {program.structure_version(), sum(program.linear_costs()),
           sum(program.bounding_box_constraints()),
+          sum(program.generic_costs()) + sum(program.quadratic_constraints()) +
+              sum(program.generic_constraints()),
           sum(program.quadratic_costs()) + sum(program.norm_costs()) +
               sum(program.affine_constraints()) + sum(program.cone_constraints())};
 }
@@ -59,11 +69,12 @@ std::uint64_t Lowering::Refresh(const MathematicalProgram& program) {
   const Stamps now = StampsOf(program);
   const bool linear = now.linear_costs != stamps_.linear_costs;
   const bool boxes = now.boxes != stamps_.boxes;
-  const bool rest = now.structure != stamps_.structure || now.others != stamps_.others;
+  const bool rest = now.structure != stamps_.structure || now.others != stamps_.others ||
+                    now.nonlinear != stamps_.nonlinear;
   if (!linear && !boxes && !rest) return 0;
   std::optional<std::uint64_t> kinds;
   if (!rest) kinds = RefreshVectors(program, now);
-  if (!kinds.has_value()) kinds = RefreshAll(program);
+  if (!kinds.has_value()) kinds = RefreshAll(program, now);
   stamps_ = now;
   return *kinds;
 }
@@ -98,36 +109,43 @@ std::optional<std::uint64_t> Lowering::RefreshVectors(const MathematicalProgram&
   return kinds;
 }
 
-std::uint64_t Lowering::RefreshAll(const MathematicalProgram& program) {
+std::uint64_t Lowering::RefreshAll(const MathematicalProgram& program, const Stamps& now) {
   builder_.Rewrite();
-  Write(program);
-  ProblemData fresh = builder_.Finish();
+  const bool had_functions = nonlinear_ != nullptr;
+  const bool other_terms = Write(program);
+  ProblemData fresh = Finished();
   const ProblemData& before = problem_.data();
   const bool same_sizes = fresh.num_vars == before.num_vars &&
                           fresh.num_rows() == before.num_rows() &&
-                          fresh.num_cone_rows() == before.num_cone_rows();
+                          fresh.num_cone_rows() == before.num_cone_rows() &&
+                          had_functions == (nonlinear_ != nullptr) && !other_terms;
   if (!same_sizes || !builder_.SamePatterns()) {
     builder_ = ProblemBuilder();
     Write(program);
-    problem_ = Problem(builder_.Finish());
+    problem_ = Problem(Finished());
     return kStructureChanged;
   }
-  const std::uint64_t kinds = ProblemDifference(before, fresh);
+  std::uint64_t kinds = ProblemDifference(before, fresh);
+  if (had_functions && now.nonlinear != stamps_.nonlinear) kinds |= SY_UPDATES_NLP;
   problem_ = Problem(std::move(fresh));
   return kinds;
 }
 
-void Lowering::Write(const MathematicalProgram& program) {
+// True where the functions are others than those of the writing before.
+bool Lowering::Write(const MathematicalProgram& program) {
   maximize_ = program.objective_sense() == ObjectiveSense::kMaximize;
   crossed_ = -1;
   affine_row_.clear();
   cone_row_.clear();
   norm_variable_.clear();
+  quadratic_.clear();
   builder_.flags = SY_PROBLEM_CONVEX;
   WriteVariables(program);
   WriteConstraints(program);
+  WriteQuadraticConstraints(program);
   num_program_cones_ = static_cast<int>(builder_.cones.size());
   WriteCosts(program);
+  return WriteNonlinear(program);
 }
 
 Lowering::Bounds Lowering::BoundsOf(const MathematicalProgram& program) {
@@ -196,23 +214,84 @@ void Lowering::WriteConstraints(const MathematicalProgram& program) {
   }
   for (const auto& binding : program.cone_constraints()) {
     const ConeConstraint& cone = *binding.evaluator();
-    const std::int32_t first = builder_.AddCone(cone.cone());
-    cone_row_.push_back(first);
-    // Where each row of z goes: to one row of the cone, or (below the diagonal) to none.
-    std::vector<ConeConstraint::FrameRow> place(static_cast<std::size_t>(cone.A().rows()), {-1, 0});
-    for (int i = 0; i < cone.cone().dim; ++i) {
-      const auto& from = cone.frame()[At(i)];
-      place[At(from.row)] = {first + i, from.scale};
-      builder_.g[At(first + i)] = from.scale * cone.b()[from.row];
-    }
-    const auto index = program.FindDecisionVariableIndices(binding.variables());
-    for (int j = 0; j < cone.A().outerSize(); ++j) {
-      for (SparseMatrix::InnerIterator entry(cone.A(), j); entry; ++entry) {
-        const auto& to = place[static_cast<std::size_t>(entry.row())];
-        if (to.row >= 0) builder_.F.Add(to.row, index[At(j)], to.scale * entry.value());
-      }
+    cone_row_.push_back(static_cast<std::int32_t>(builder_.g.size()));
+    WriteCone(cone.cone(), cone.A(), cone.b(), cone.frame(),
+              program.FindDecisionVariableIndices(binding.variables()));
+  }
+}
+
+// Ax + b, taken to the cone by its frame.
+void Lowering::WriteCone(const sy_cone& cone, const SparseMatrix& A, const Eigen::VectorXd& b,
+                         const std::vector<ConeConstraint::FrameRow>& frame,
+                         const std::vector<int>& index) {
+  const std::int32_t first = builder_.AddCone(cone);
+  // Where each row of z goes: to one row of the cone, or (below the diagonal) to none.
+  std::vector<ConeConstraint::FrameRow> place(static_cast<std::size_t>(A.rows()), {-1, 0});
+  for (int i = 0; i < cone.dim; ++i) {
+    const auto& from = frame[At(i)];
+    place[At(from.row)] = {first + i, from.scale};
+    builder_.g[At(first + i)] = from.scale * b[from.row];
+  }
+  for (int j = 0; j < A.outerSize(); ++j) {
+    for (SparseMatrix::InnerIterator entry(A, j); entry; ++entry) {
+      const auto& to = place[static_cast<std::size_t>(entry.row())];
+      if (to.row >= 0) builder_.F.Add(to.row, index[At(j)], to.scale * entry.value());
     }
   }
+}
+
+// Rows of the nlp where there is one anyway, rotated cones where there is none.
+void Lowering::WriteQuadraticConstraints(const MathematicalProgram& program) {
+  const bool in_nlp = NeedsFunctions(program);
+  for (const auto& binding : program.quadratic_constraints()) {
+    const QuadraticConstraint& form = *binding.evaluator();
+    if (in_nlp) {
+      quadratic_.push_back({true, false, static_cast<std::int32_t>(quadratic_.size())});
+      continue;
+    }
+    const bool mirrored = form.lower_bound()[0] > -kInfinity;
+    const double sign = mirrored ? -1 : 1;
+    const double side = mirrored ? -form.lower_bound()[0] : form.upper_bound()[0];
+    if (side == kInfinity) {  // free on both sides
+      quadratic_.push_back({});
+      continue;
+    }
+    quadratic_.push_back({false, mirrored, static_cast<std::int32_t>(builder_.g.size())});
+    const SparseMatrix Q = sign * form.Q();
+    RotatedCone z = RotatedConeOf(Q, sign * form.b(), side);
+    const RotatedLorentzConeConstraint cone(std::move(z.A), z.b);
+    WriteCone(cone.cone(), cone.A(), cone.b(), cone.frame(),
+              program.FindDecisionVariableIndices(binding.variables()));
+  }
+}
+
+bool Lowering::NeedsFunctions(const MathematicalProgram& program) const {
+  return NeedsNonlinearPart(program) ||
+         (form_ == Quadratics::kFunctions && !program.quadratic_constraints().empty());
+}
+
+bool Lowering::WriteNonlinear(const MathematicalProgram& program) {
+  const bool needed = NeedsFunctions(program);
+  const auto num_vars = static_cast<std::int32_t>(builder_.q.size());
+  const bool kept = needed && nonlinear_ != nullptr &&
+                    nonlinear_structure_ == program.structure_version() &&
+                    nonlinear_->terms()->SamePatterns();
+  const bool other = needed && nonlinear_ != nullptr && !kept;
+  std::shared_ptr<NonlinearPart> before = std::exchange(nonlinear_, nullptr);
+  if (before != nullptr) replaced_.push_back(before);
+  if (!needed) return false;
+  auto terms = kept ? before->terms() : std::make_shared<const NonlinearTerms>(program, num_vars);
+  nonlinear_ = std::make_shared<NonlinearPart>(std::move(terms), program);
+  nonlinear_structure_ = program.structure_version();
+  const auto convex = [](const auto& bindings) {
+    return std::all_of(bindings.begin(), bindings.end(),
+                       [](const auto& binding) { return binding.evaluator()->is_convex(); });
+  };
+  const bool all_convex =
+      convex(program.generic_costs()) && convex(program.quadratic_constraints()) &&
+      convex(program.generic_constraints()) && (!maximize_ || program.generic_costs().empty());
+  if (!all_convex) builder_.flags &= ~std::uint32_t{SY_PROBLEM_CONVEX};
+  return other;
 }
 
 void Lowering::WriteCosts(const MathematicalProgram& program) {

@@ -31,8 +31,26 @@ std::string Lowering::NameOf(const MathematicalProgram& program, const std::stri
     const int local = index - affine_row_[k];
     return local < rows.num_constraints() ? rows.RowName(local) : "a norm cost's row";
   }
+  if (kind == "c") return NameOfNonlinearRow(program, index);
   if (index >= num_program_cones_) return "a norm cost's cone";
-  return program.cone_constraints()[static_cast<std::size_t>(index)].evaluator()->Name();
+  const auto cone = static_cast<std::size_t>(index);
+  if (cone < cone_row_.size()) return program.cone_constraints()[cone].evaluator()->Name();
+  // A quadratic constraint: the cones of those that have one are in order.
+  std::size_t left = cone - cone_row_.size();
+  for (std::size_t k = 0; k < quadratic_.size(); ++k) {
+    if (quadratic_[k].row < 0 || left-- > 0) continue;
+    return program.quadratic_constraints()[k].evaluator()->Name();
+  }
+  return "a quadratic constraint";
+}
+
+std::string Lowering::NameOfNonlinearRow(const MathematicalProgram& program, int row) const {
+  if (row < static_cast<int>(quadratic_.size())) {
+    return program.quadratic_constraints()[static_cast<std::size_t>(row)].evaluator()->RowName(0);
+  }
+  std::size_t k = 0;
+  while (k + 1 < program.generic_constraints().size() && FirstNonlinearRow(k + 1) <= row) ++k;
+  return program.generic_constraints()[k].evaluator()->RowName(row - FirstNonlinearRow(k));
 }
 
 std::string Lowering::WithNames(const MathematicalProgram& program, const std::string& text) const {
@@ -41,8 +59,9 @@ std::string Lowering::WithNames(const MathematicalProgram& program, const std::s
     int count;
   };
   const ProblemData& d = problem_.data();
-  const std::array<Kind, 3> kinds = {Kind{"x", d.num_vars}, Kind{"row", d.num_rows()},
-                                     Kind{"cone", d.num_cones()}};
+  const int functions = d.nlp != nullptr ? d.nlp->num_constraints : 0;
+  const std::array<Kind, 4> kinds = {Kind{"x", d.num_vars}, Kind{"row", d.num_rows()},
+                                     Kind{"cone", d.num_cones()}, Kind{"c", functions}};
   std::string out;
   for (std::size_t at = 0; at < text.size();) {
     bool replaced = false;

@@ -1,5 +1,6 @@
 #include "core/model/checks.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace switchyard {
@@ -32,6 +33,17 @@ void CheckShape(std::string_view name, std::string_view what, const SparseMatrix
 void CheckSize(std::string_view name, std::string_view what, const VectorRef& v,
                Eigen::Index size) {
   Require(v.size() == size, name, ": ", what, " needs ", size, " entries, got ", v.size());
+}
+
+// Compared first: inf - inf is not a number.
+double BoxViolation(const Eigen::VectorXd& y, const Eigen::VectorXd& lower,
+                    const Eigen::VectorXd& upper) {
+  double worst = 0;
+  for (Eigen::Index i = 0; i < y.size(); ++i) {
+    if (y[i] < lower[i]) worst = std::max(worst, lower[i] - y[i]);
+    if (y[i] > upper[i]) worst = std::max(worst, y[i] - upper[i]);
+  }
+  return worst;
 }
 
 }  // namespace switchyard

@@ -17,4 +17,8 @@ void CheckShape(std::string_view name, std::string_view what, const SparseMatrix
                 Eigen::Index rows, Eigen::Index cols);
 void CheckSize(std::string_view name, std::string_view what, const VectorRef& v, Eigen::Index size);
 
+/// How far y is outside of lower <= y <= upper, the largest of its rows.
+double BoxViolation(const Eigen::VectorXd& y, const Eigen::VectorXd& lower,
+                    const Eigen::VectorXd& upper);
+
 }  // namespace switchyard

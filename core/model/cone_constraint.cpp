@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/model/checks.hpp"
+#include "core/model/derivatives.hpp"
 #include "switchyard/cones.hpp"
 #include "switchyard/model/constraint.hpp"
 
@@ -145,6 +146,12 @@ void ConeConstraint::CheckAndStore(std::string_view name, CoefficientMatrix A, c
   std::move(A).MoveInto(&A_);
   b_ = b;
 }
+
+SparsityPattern ConeConstraint::JacobianPattern() const { return PatternOf(A_); }
+
+SparsityPattern ConeConstraint::HessianPattern() const { return {num_vars(), num_vars(), {}, {}}; }
+
+void ConeConstraint::DoEvaluate(const Evaluation& wanted) const { EvaluateAffine(A_, &b_, wanted); }
 
 Eigen::VectorXd ConeConstraint::DualInUserFrame(const VectorRef& abi_dual) const {
   CheckSize(Name(), "the dual", abi_dual, static_cast<Eigen::Index>(frame_.size()));

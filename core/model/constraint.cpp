@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/model/checks.hpp"
+#include "core/model/derivatives.hpp"
 
 namespace switchyard {
 namespace {
@@ -89,13 +90,18 @@ void LinearConstraint::CheckAndStore(std::string_view name, CoefficientMatrix A,
   std::move(A).MoveInto(&A_);
 }
 
+SparsityPattern LinearConstraint::JacobianPattern() const { return PatternOf(A_); }
+
+SparsityPattern LinearConstraint::HessianPattern() const {
+  return {num_vars(), num_vars(), {}, {}};
+}
+
+void LinearConstraint::DoEvaluate(const Evaluation& wanted) const {
+  EvaluateAffine(A_, nullptr, wanted);
+}
+
 double LinearConstraint::ViolationOf(const Eigen::VectorXd& y) const {
-  double worst = 0;
-  for (Eigen::Index i = 0; i < y.size(); ++i) {  // compared first: inf - inf is not a number
-    if (y[i] < lower_bound()[i]) worst = std::max(worst, lower_bound()[i] - y[i]);
-    if (y[i] > upper_bound()[i]) worst = std::max(worst, y[i] - upper_bound()[i]);
-  }
-  return worst;
+  return BoxViolation(y, lower_bound(), upper_bound());
 }
 
 void LinearEqualityConstraint::CheckForm(const SparseMatrix&, const VectorRef& lower,

@@ -101,4 +101,9 @@ bool IsPositiveSemidefinite(const SparseMatrix& Q) {
   return true;
 }
 
+SparseMatrix SymmetricPart(const SparseMatrix& Q) {
+  const SparseMatrix transposed = Q.transpose();
+  return 0.5 * Q + 0.5 * transposed;
+}
+
 }  // namespace switchyard

@@ -15,4 +15,7 @@ namespace switchyard {
 /// factorization of small components and the sparse one of large ones alike.
 bool IsPositiveSemidefinite(const SparseMatrix& Q);
 
+/// (Q + Q')/2, exactly Q where Q is symmetric.
+SparseMatrix SymmetricPart(const SparseMatrix& Q);
+
 }  // namespace switchyard

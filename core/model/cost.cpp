@@ -1,20 +1,16 @@
 #include "switchyard/model/cost.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include "core/model/checks.hpp"
 #include "core/model/convexity.hpp"
+#include "core/model/derivatives.hpp"
 
 namespace switchyard {
 namespace {
 
 Eigen::VectorXd One(double value) { return Eigen::VectorXd::Constant(1, value); }
-
-// (Q + Q')/2, exactly Q where Q is symmetric.
-SparseMatrix SymmetricPart(const SparseMatrix& Q) {
-  const SparseMatrix transposed = Q.transpose();
-  return 0.5 * Q + 0.5 * transposed;
-}
 
 // |w|^2 / z_0 and its closure.
 double PerspectiveQuadratic(const Eigen::VectorXd& z) {
@@ -43,6 +39,18 @@ void LinearCost::UpdateCoefficients(const VectorRef& a, double b) {
 
 Eigen::VectorXd LinearCost::DoEval(const VectorRef& x) const { return One(a_.dot(x) + b_); }
 
+SparsityPattern LinearCost::JacobianPattern() const {
+  return SparsityPattern::Dense(1, num_vars());
+}
+
+SparsityPattern LinearCost::HessianPattern() const { return {num_vars(), num_vars(), {}, {}}; }
+
+void LinearCost::DoEvaluate(const Evaluation& wanted) const {
+  const Eigen::Map<const Eigen::VectorXd> x(wanted.x, num_vars());
+  if (wanted.values != nullptr) *wanted.values = a_.dot(x) + b_;
+  if (wanted.jacobian != nullptr) std::copy(a_.begin(), a_.end(), wanted.jacobian);
+}
+
 QuadraticCost::QuadraticCost(const CoefficientMatrix& Q, const VectorRef& b, double c,
                              std::optional<bool> is_convex)
     : Cost(static_cast<int>(b.size())) {
@@ -66,6 +74,16 @@ void QuadraticCost::UpdateCoefficients(const CoefficientMatrix& Q, const VectorR
 
 Eigen::VectorXd QuadraticCost::DoEval(const VectorRef& x) const {
   return One(0.5 * x.dot(Q_ * x) + b_.dot(x) + c_);
+}
+
+SparsityPattern QuadraticCost::JacobianPattern() const {
+  return SparsityPattern::Dense(1, num_vars());
+}
+
+SparsityPattern QuadraticCost::HessianPattern() const { return UpperPatternOf(Q_); }
+
+void QuadraticCost::DoEvaluate(const Evaluation& wanted) const {
+  EvaluateQuadratic(Q_, b_, c_, wanted);
 }
 
 NormCost::NormCost(Norm norm, const CoefficientMatrix& A, const VectorRef& b)

@@ -1,15 +1,11 @@
+#include <algorithm>
+
 #include "switchyard/model/program.hpp"
 
 namespace switchyard {
 
-Eigen::VectorXd MathematicalProgram::ValuesOf(const VectorXDecisionVariable& variables,
-                                              const VectorRef& x) const {
-  Require(x.size() == num_vars(), "evaluation: x needs ", num_vars(), " entries, got ", x.size());
-  Eigen::VectorXd values(variables.size());
-  for (Eigen::Index i = 0; i < values.size(); ++i) {
-    values[i] = x[FindDecisionVariableIndex(variables[i])];
-  }
-  return values;
+std::unique_ptr<MathematicalProgram> MathematicalProgram::Clone() const {
+  return std::unique_ptr<MathematicalProgram>(new MathematicalProgram(*this));
 }
 
 double MathematicalProgram::EvalCosts(const VectorRef& x) const {
@@ -18,15 +14,23 @@ double MathematicalProgram::EvalCosts(const VectorRef& x) const {
   const auto add = [&](const auto& costs) {
     for (const auto& cost : costs) sum += EvalBinding(cost, x)[0];
   };
-  add(linear_costs_);
-  add(quadratic_costs_);
-  add(norm_costs_);
+  add(linear_costs());
+  add(quadratic_costs());
+  add(norm_costs());
+  add(generic_costs());
   return sum;
 }
 
 bool MathematicalProgram::CheckSatisfied(const Binding<Constraint>& binding, const VectorRef& x,
                                          double tolerance) const {
   return binding.evaluator()->CheckSatisfied(ValuesOf(binding.variables(), x), tolerance);
+}
+
+bool MathematicalProgram::CheckSatisfied(const std::vector<Binding<Constraint>>& bindings,
+                                         const VectorRef& x, double tolerance) const {
+  return std::all_of(bindings.begin(), bindings.end(), [&](const Binding<Constraint>& binding) {
+    return CheckSatisfied(binding, x, tolerance);
+  });
 }
 
 }  // namespace switchyard

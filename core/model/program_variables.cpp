@@ -6,7 +6,8 @@
 #include <utility>
 
 #include "switchyard/model/new_ids.hpp"
-#include "switchyard/model/program.hpp"
+#include "switchyard/model/program_variables.hpp"
+#include "switchyard/symbolic/variable_names.hpp"
 
 namespace switchyard {
 namespace {
@@ -19,17 +20,21 @@ void CheckDimension(const char* what, int size) {
   Require(size >= 0, "new variables: ", what, " needs to be 0 or more, got ", size);
 }
 
+// The block becomes the names of these new variables: in their program and in texts about them.
+void AddNames(const VectorXDecisionVariable& added, NameBlock block, NameTable* names) {
+  if (added.size() == 0) return;
+  const auto shared = std::make_shared<const NameBlock>(std::move(block));
+  names->Add(shared);
+  RegisterNames(added[0].get_id(), shared);
+}
+
 std::size_t At(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
-std::unique_ptr<MathematicalProgram> MathematicalProgram::Clone() const {
-  return std::unique_ptr<MathematicalProgram>(new MathematicalProgram(*this));
-}
-
 Variable::Id NewVariableIds(std::int64_t count) { return next_id.fetch_add(count); }
 
-VectorXDecisionVariable MathematicalProgram::AddBlock(std::int64_t count, VariableType type) {
+VectorXDecisionVariable ProgramVariables::AddBlock(std::int64_t count, VariableType type) {
   ++structure_version_;
   constexpr std::int64_t kMost = std::numeric_limits<int>::max();
   Require(count <= kMost - num_vars(), "new variables: a program holds at most ", kMost,
@@ -49,53 +54,52 @@ VectorXDecisionVariable MathematicalProgram::AddBlock(std::int64_t count, Variab
   return added;
 }
 
-VectorXDecisionVariable MathematicalProgram::NewVector(int rows, VariableType type,
-                                                       const std::string& name) {
+VectorXDecisionVariable ProgramVariables::NewVector(int rows, VariableType type,
+                                                    const std::string& name) {
   CheckDimension("rows", rows);
   VectorXDecisionVariable added = AddBlock(rows, type);
-  names_.AddShaped(name, rows, 0);
+  AddNames(added, NameBlock::Shaped(name, rows, 0), &names_);
   return added;
 }
 
-MatrixXDecisionVariable MathematicalProgram::NewMatrix(int rows, int cols, VariableType type,
-                                                       const std::string& name) {
+MatrixXDecisionVariable ProgramVariables::NewMatrix(int rows, int cols, VariableType type,
+                                                    const std::string& name) {
   CheckDimension("rows", rows);
   CheckDimension("cols", cols);
   const VectorXDecisionVariable added = AddBlock(std::int64_t{rows} * cols, type);
-  if (added.size() > 0) names_.AddShaped(name, rows, cols);
+  AddNames(added, NameBlock::Shaped(name, rows, cols), &names_);
   return added.reshaped(rows, cols);
 }
 
-VectorXDecisionVariable MathematicalProgram::NewContinuousVariables(int rows,
-                                                                    const std::string& name) {
+VectorXDecisionVariable ProgramVariables::NewContinuousVariables(int rows,
+                                                                 const std::string& name) {
   return NewVector(rows, VariableType::kContinuous, name);
 }
 
-VectorXDecisionVariable MathematicalProgram::NewBinaryVariables(int rows, const std::string& name) {
+VectorXDecisionVariable ProgramVariables::NewBinaryVariables(int rows, const std::string& name) {
   return NewVector(rows, VariableType::kBinary, name);
 }
 
-VectorXDecisionVariable MathematicalProgram::NewIntegerVariables(int rows,
-                                                                 const std::string& name) {
+VectorXDecisionVariable ProgramVariables::NewIntegerVariables(int rows, const std::string& name) {
   return NewVector(rows, VariableType::kInteger, name);
 }
 
-MatrixXDecisionVariable MathematicalProgram::NewContinuousVariables(int rows, int cols,
-                                                                    const std::string& name) {
+MatrixXDecisionVariable ProgramVariables::NewContinuousVariables(int rows, int cols,
+                                                                 const std::string& name) {
   return NewMatrix(rows, cols, VariableType::kContinuous, name);
 }
 
-MatrixXDecisionVariable MathematicalProgram::NewBinaryVariables(int rows, int cols,
-                                                                const std::string& name) {
+MatrixXDecisionVariable ProgramVariables::NewBinaryVariables(int rows, int cols,
+                                                             const std::string& name) {
   return NewMatrix(rows, cols, VariableType::kBinary, name);
 }
 
-MatrixXDecisionVariable MathematicalProgram::NewSymmetricContinuousVariables(
-    int rows, const std::string& name) {
+MatrixXDecisionVariable ProgramVariables::NewSymmetricContinuousVariables(int rows,
+                                                                          const std::string& name) {
   CheckDimension("rows", rows);
   const VectorXDecisionVariable added =
       AddBlock(std::int64_t{rows} * (std::int64_t{rows} + 1) / 2, VariableType::kContinuous);
-  names_.AddSymmetric(name, rows);
+  AddNames(added, NameBlock::Symmetric(name, rows), &names_);
   MatrixXDecisionVariable X(rows, rows);
   for (Eigen::Index j = 0, k = 0; j < rows; ++j) {
     for (Eigen::Index i = j; i < rows; ++i) X(i, j) = X(j, i) = added[k++];
@@ -103,19 +107,19 @@ MatrixXDecisionVariable MathematicalProgram::NewSymmetricContinuousVariables(
   return X;
 }
 
-VectorXDecisionVariable MathematicalProgram::NewVariables(std::vector<std::string> names,
-                                                          const std::vector<VariableType>& types) {
+VectorXDecisionVariable ProgramVariables::NewVariables(std::vector<std::string> names,
+                                                       const std::vector<VariableType>& types) {
   Require(names.size() == types.size(), "new variables: one type for each name, got ", names.size(),
           " names and ", types.size(), " types");
   const int first = num_vars();
   VectorXDecisionVariable added =
       AddBlock(static_cast<std::int64_t>(names.size()), VariableType::kContinuous);
   std::copy(types.begin(), types.end(), types_.begin() + first);
-  names_.AddListed(std::move(names));
+  AddNames(added, NameBlock::Listed(std::move(names)), &names_);
   return added;
 }
 
-void MathematicalProgram::AddDecisionVariables(const VariableList& variables) {
+void ProgramVariables::AddDecisionVariables(const VariableList& variables) {
   ++structure_version_;
   std::vector<Variable> added;
   std::vector<std::string> names;
@@ -143,26 +147,26 @@ void MathematicalProgram::AddDecisionVariables(const VariableList& variables) {
             [](const Block& a, const Block& b) { return a.first_id < b.first_id; });
   variables_.insert(variables_.end(), added.begin(), added.end());
   types_.insert(types_.end(), added.size(), VariableType::kContinuous);
-  names_.AddListed(std::move(names));
+  names_.Add(std::make_shared<const NameBlock>(NameBlock::Listed(std::move(names))));
 }
 
-Variable MathematicalProgram::decision_variable(int i) const {
+Variable ProgramVariables::decision_variable(int i) const {
   Require(i >= 0 && i < num_vars(), "decision variable ", i, ": there are ", num_vars());
   return variables_[At(i)];
 }
 
-VectorXDecisionVariable MathematicalProgram::decision_variables() const {
+VectorXDecisionVariable ProgramVariables::decision_variables() const {
   return Eigen::Map<const VectorXDecisionVariable>(variables_.data(), num_vars());
 }
 
-bool MathematicalProgram::has_integers() const {
+bool ProgramVariables::has_integers() const {
   return std::any_of(types_.begin(), types_.end(),
                      [](VariableType t) { return t != VariableType::kContinuous; });
 }
 
 // The last block that starts at or before the id. Halving without a branch on the comparison: with
 // variables in random order a branch would be guessed wrong every second time.
-int MathematicalProgram::FindIndex(Variable variable) const {
+int ProgramVariables::FindIndex(Variable variable) const {
   if (blocks_.empty()) return -1;
   const Block* block = blocks_.data();
   for (std::size_t left = blocks_.size(); left > 1;) {
@@ -174,7 +178,7 @@ int MathematicalProgram::FindIndex(Variable variable) const {
   return offset >= 0 && offset < block->count ? block->first_index + static_cast<int>(offset) : -1;
 }
 
-int MathematicalProgram::FindDecisionVariableIndex(Variable variable) const {
+int ProgramVariables::FindDecisionVariableIndex(Variable variable) const {
   const int index = FindIndex(variable);
   if (index < 0) [[unlikely]] {
     Require(!variable.is_dummy(), "a dummy variable belongs to no program");
@@ -183,7 +187,7 @@ int MathematicalProgram::FindDecisionVariableIndex(Variable variable) const {
   return index;
 }
 
-std::vector<int> MathematicalProgram::FindDecisionVariableIndices(
+std::vector<int> ProgramVariables::FindDecisionVariableIndices(
     const VariableList& variables) const {
   std::vector<int> indices;
   indices.reserve(static_cast<std::size_t>(variables.vector().size()));
@@ -191,11 +195,11 @@ std::vector<int> MathematicalProgram::FindDecisionVariableIndices(
   return indices;
 }
 
-void MathematicalProgram::SetInitialGuess(Variable variable, double value) {
+void ProgramVariables::SetInitialGuess(Variable variable, double value) {
   SetInitialGuess(VariableList(variable), Eigen::VectorXd::Constant(1, value));
 }
 
-void MathematicalProgram::SetInitialGuess(const VariableList& variables, const VectorRef& values) {
+void ProgramVariables::SetInitialGuess(const VariableList& variables, const VectorRef& values) {
   const std::vector<int> indices = FindDecisionVariableIndices(variables);
   Require(values.size() == variables.vector().size(), "initial guess: ", indices.size(),
           " variables need as many values, got ", values.size());
@@ -213,20 +217,59 @@ void MathematicalProgram::SetInitialGuess(const VariableList& variables, const V
   }
 }
 
-void MathematicalProgram::SetInitialGuessForAllVariables(const VectorRef& values) {
+void ProgramVariables::SetInitialGuessForAllVariables(const VectorRef& values) {
   SetInitialGuess(decision_variables(), values);
 }
 
-double MathematicalProgram::GetInitialGuess(Variable variable) const {
+Eigen::VectorXd ProgramVariables::ValuesOf(const VectorXDecisionVariable& variables,
+                                           const VectorRef& x) const {
+  Require(x.size() == num_vars(), "evaluation: x needs ", num_vars(), " entries, got ", x.size());
+  Eigen::VectorXd values(variables.size());
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    values[i] = x[FindDecisionVariableIndex(variables[i])];
+  }
+  return values;
+}
+
+void ProgramVariables::CheckVariables(const EvaluatorBase& evaluator,
+                                      const VectorXDecisionVariable& vars) const {
+  for (Eigen::Index i = 0; i < vars.size(); ++i) {
+    if (FindIndex(vars[i]) >= 0) [[likely]]
+      continue;
+    Refuse(evaluator.Name(), ": variable ", i, " of ", vars.size(), " is ",
+           vars[i].is_dummy() ? "a dummy, it belongs to no program" : "not of this program");
+  }
+}
+
+void ProgramVariables::SetDecisionVariableValueInVector(const VariableList& variables,
+                                                        const VectorRef& new_values,
+                                                        Eigen::Ref<Eigen::VectorXd> values) const {
+  const std::vector<int> indices = FindDecisionVariableIndices(variables);
+  Require(values.size() == num_vars(), "values in a vector: it needs ", num_vars(),
+          " entries, got ", values.size());
+  Require(new_values.size() == variables.vector().size(), "values in a vector: ", indices.size(),
+          " variables need as many values, got ", new_values.size());
+  for (std::size_t k = 0; k < indices.size(); ++k) {
+    values[indices[k]] = new_values[static_cast<Eigen::Index>(k)];
+  }
+}
+
+void ProgramVariables::SetDecisionVariableValueInVector(Variable variable, double new_value,
+                                                        Eigen::Ref<Eigen::VectorXd> values) const {
+  SetDecisionVariableValueInVector(VariableList(variable), Eigen::VectorXd::Constant(1, new_value),
+                                   values);
+}
+
+double ProgramVariables::GetInitialGuess(Variable variable) const {
   const auto at = guess_.find(FindDecisionVariableIndex(variable));
   return at == guess_.end() ? std::numeric_limits<double>::quiet_NaN() : at->second;
 }
 
-Eigen::VectorXd MathematicalProgram::GetInitialGuess(const VariableList& variables) const {
+Eigen::VectorXd ProgramVariables::GetInitialGuess(const VariableList& variables) const {
   return variables.vector().unaryExpr([this](Variable v) { return GetInitialGuess(v); });
 }
 
-Eigen::VectorXd MathematicalProgram::initial_guess() const {
+Eigen::VectorXd ProgramVariables::initial_guess() const {
   Eigen::VectorXd guess =
       Eigen::VectorXd::Constant(num_vars(), std::numeric_limits<double>::quiet_NaN());
   for (const auto& [index, value] : guess_) guess[index] = value;

@@ -88,6 +88,25 @@ void SeeCones(const sy_problem& problem, const RowValues& rows, Worst& worst) {
   }
 }
 
+void SeeFunctions(const sy_problem& problem, const std::vector<double>& x, Worst& worst) {
+  if (problem.nlp == nullptr) return;
+  const sy_nlp& nlp = *problem.nlp;
+  std::vector<double> c(static_cast<std::size_t>(nlp.num_constraints));
+  sy_evaluation e{};
+  e.size = sizeof e;
+  e.want = SY_CONSTRAINTS;
+  e.x = x.data();
+  e.constraints = c.data();
+  if (nlp.evaluate(nlp.context, &e) != SY_EVALUATED) return worst.See(kInfinity, 0);
+  for (std::size_t i = 0; i < c.size(); ++i) {
+    const double below = nlp.lower[i] - c[i];
+    const double above = c[i] - nlp.upper[i];
+    worst.See(std::max({0.0, below, above}), std::abs(below > 0   ? nlp.lower[i]
+                                                      : above > 0 ? nlp.upper[i]
+                                                                  : 0));
+  }
+}
+
 /// What duals are worth on the problem's own bounds, in plain arithmetic.
 struct PlainDual {
   double objective = 0;   // open columns left out: r_j of the wrong sign against an infinite side
@@ -157,7 +176,13 @@ double RelativeViolation(const sy_problem& problem, const std::vector<double>& x
     worst.See(Outside(rows.value[i], problem.row_lower[i], problem.row_upper[i]), rows.largest[i]);
   }
   SeeCones(problem, Evaluate(problem.F, problem.g, problem.num_cone_rows, x), worst);
+  SeeFunctions(problem, x, worst);
   return std::max(worst.InUnits(), integrality * kSupported / kIntegral);
+}
+
+DualCheck EstimateDuals(const sy_problem& problem, const Vectors& v) {
+  const PlainDual plain = EvaluateDuals(problem, v);
+  return {-kInfinity, plain.objective, plain.open_worth, -1};
 }
 
 DualCheck CheckDuals(const sy_problem& problem, const Vectors& v, double cutoff) {
@@ -206,6 +231,7 @@ bool ProvesInfeasible(const sy_problem& problem, const Vectors& v) {
   sy_problem no_objective = problem;
   const std::vector<double> zero(static_cast<std::size_t>(problem.num_vars), 0.0);
   no_objective.P = nullptr;
+  no_objective.nlp = nullptr;  // rows and cones that contradict each other do so without it
   no_objective.q = zero.data();
   no_objective.offset = 0;
   const Boxes boxes = ProvenBoxes(no_objective);
@@ -219,6 +245,7 @@ bool ProvesInfeasible(const sy_problem& problem, const Vectors& v) {
 }
 
 bool IsUnboundedRay(const sy_problem& problem, const Vectors& v) {
+  if (problem.nlp != nullptr) return false;  // what functions do far out is not known
   double scale = 0;
   for (const double x : v.x) scale = std::max(scale, std::abs(x));
   if (scale == 0 || !std::isfinite(scale)) return false;

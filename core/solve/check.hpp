@@ -20,9 +20,10 @@ inline constexpr double kSupportedByNorm = 1e-8;
 /// How far from an integer a value may be; simplex codes leave 1e-6, and their scaling more.
 inline constexpr double kIntegral = 1e-5;
 
-/// The largest violation of x over bounds, rows and cones, in units in which kSupported is the
-/// most that is feasible: each relative to 1 + its largest term or, where that is smaller, to
-/// 1 + the largest of all terms and kSupportedByNorm; that of integrality in units of kIntegral.
+/// The largest violation of x over bounds, rows, cones and functions, in units in which kSupported
+/// is the most that is feasible: each relative to 1 + its largest term or, where that is smaller,
+/// to 1 + the largest of all terms and kSupportedByNorm; that of integrality in units of kIntegral.
+/// The term of a nonlinear constraint is its bound; infinite where a function is not defined.
 double RelativeViolation(const sy_problem& problem, const std::vector<double>& x);
 
 /// What duals say about a convex problem without integers.
@@ -35,6 +36,9 @@ struct DualCheck {
   double open_worth = 0;  // what was left out, as an objective, were x no larger than it is
   int open_column = -1;   // where the proof of `bound` ends; -1: nowhere
 };
+/// Of any continuous problem: the estimate alone, in which `bound` stays -infinity. At a point that
+/// satisfies the conditions of first order with these duals it is the point's objective.
+DualCheck EstimateDuals(const sy_problem& problem, const Vectors& v);
 /// `cutoff`: the objective of a feasible point; the boxes are proven below it.
 DualCheck CheckDuals(const sy_problem& problem, const Vectors& v, double cutoff);
 

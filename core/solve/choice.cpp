@@ -31,7 +31,7 @@ std::vector<Considered> UnknownNames(const Host& host, const std::string& names)
 std::unique_ptr<Instance> Try(const Host& host, const sy_problem& problem, const BackendWish& wish,
                               const Candidate& candidate, std::string& why) {
   try {
-    auto fresh = std::make_unique<Instance>(*host.Facade(*candidate.backend), *host.table());
+    auto fresh = std::make_unique<Instance>(*host.Facade(*candidate.backend), *wish.table);
     SetOptions(*wish.options, *candidate.backend, *fresh);
     fresh->Load(problem, wish.updates);
     return fresh;

@@ -16,7 +16,8 @@ namespace switchyard {
 struct BackendWish {
   std::string names;  // in order of preference, comma-separated; "": the best
   const SolverOptions* options = nullptr;
-  std::uint64_t updates = 0;  // that are to follow
+  const sy_host* table = nullptr;  // what instances are given
+  std::uint64_t updates = 0;       // that are to follow
   /// A backend's text about x[3] or row[3] in the user's names.
   std::function<std::string(const std::string&)> with_names;
 };

@@ -4,7 +4,7 @@
 #include <exception>
 
 #include "switchyard/abi.h"
-#include "switchyard/solve/options.hpp"
+#include "switchyard/model/solver_options.hpp"
 
 namespace switchyard {
 

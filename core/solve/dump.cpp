@@ -34,6 +34,14 @@ Json Matrix(const sy_csc& m) {
   return {{"rows", m.rows}, {"cols", m.cols}, {"entries", std::move(entries)}};
 }
 
+Json Pattern(const sy_csc& m) {
+  Json entries = Json::array();
+  for (std::int32_t j = 0; j < m.cols; ++j) {
+    for (std::int32_t k = m.start[j]; k < m.start[j + 1]; ++k) entries.push_back({m.row[k], j});
+  }
+  return {{"rows", m.rows}, {"cols", m.cols}, {"entries", std::move(entries)}};
+}
+
 }  // namespace
 
 void WriteProblem(const sy_problem& problem, const std::string& path) {
@@ -63,6 +71,14 @@ void WriteProblem(const sy_problem& problem, const std::string& path) {
       json["cones"].push_back(
           {{"kind", FactsOf(cone.kind).name}, {"dim", cone.dim}, {"parameter", cone.parameter}});
     }
+  }
+  if (problem.nlp != nullptr) {
+    const sy_nlp& nlp = *problem.nlp;
+    json["nlp"] = {{"num_constraints", nlp.num_constraints},
+                   {"lower", Numbers(nlp.lower, nlp.num_constraints)},
+                   {"upper", Numbers(nlp.upper, nlp.num_constraints)}};
+    if ((nlp.provides & SY_JACOBIAN) != 0) json["nlp"]["jacobian"] = Pattern(nlp.jacobian);
+    if ((nlp.provides & SY_HESSIAN) != 0) json["nlp"]["hessian"] = Pattern(nlp.hessian);
   }
   if (path == "-") {
     std::cout << json << '\n';

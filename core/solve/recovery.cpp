@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "core/solve/check.hpp"
+#include "core/solve/tangent.hpp"
 #include "switchyard/error.hpp"
 
 namespace switchyard {
@@ -13,8 +14,8 @@ namespace {
 constexpr std::size_t kTextSize = 1024;
 
 bool IsContinuousConvex(const sy_problem& problem) {
-  return problem.integer == nullptr && problem.nlp == nullptr &&
-         (problem.P == nullptr || (problem.flags & SY_PROBLEM_CONVEX) != 0);
+  const bool curved = problem.P != nullptr || problem.nlp != nullptr;
+  return problem.integer == nullptr && (!curved || (problem.flags & SY_PROBLEM_CONVEX) != 0);
 }
 
 PointKind KindOf(double relative_violation) {
@@ -35,6 +36,9 @@ AnswerBuffers::AnswerBuffers(const ProblemData& problem) : text(kTextSize, '\0')
   vectors.x_dual.assign(vars, 0);
   vectors.row_dual.assign(problem.row_lower.size(), 0);
   vectors.cone_dual.assign(problem.g.size(), 0);
+  if (problem.nlp != nullptr) {
+    vectors.nlp_dual.assign(static_cast<std::size_t>(problem.nlp->num_constraints), 0);
+  }
   raw.size = sizeof raw;
   raw.objective = std::nan("");
   raw.bound = -kInfinity;
@@ -45,6 +49,7 @@ AnswerBuffers::AnswerBuffers(const ProblemData& problem) : text(kTextSize, '\0')
   raw.x_dual = vectors.x_dual.data();
   raw.row_dual = vectors.row_dual.data();
   raw.cone_dual = vectors.cone_dual.data();
+  raw.nlp_dual = vectors.nlp_dual.data();
   raw.text = text.data();
   raw.text_size = text.size();
 }
@@ -61,6 +66,8 @@ Violation ViolationOf(const MathematicalProgram& program, const Eigen::VectorXd&
   worst(program.bounding_box_constraints(), v.bounds);
   worst(program.affine_constraints(), v.rows);
   worst(program.cone_constraints(), v.cones);
+  worst(program.quadratic_constraints(), v.nonlinear);
+  worst(program.generic_constraints(), v.nonlinear);
   for (int j = 0; j < program.num_vars(); ++j) {
     if (program.variable_type(j) == VariableType::kContinuous) continue;
     v.integrality = std::max(v.integrality, std::abs(x[j] - std::round(x[j])));
@@ -90,7 +97,7 @@ void Recovery::IndexVariables() {
   const VectorXDecisionVariable all = program_.decision_variables();
   result_.index_.resize(count);
   std::iota(result_.index_.begin(), result_.index_.end(), 0);
-  const auto by_id = [&](int i, int j) { return all[i] < all[j]; };
+  const auto by_id = [&](int i, int j) { return all[i].get_id() < all[j].get_id(); };
   if (!std::is_sorted(result_.index_.begin(), result_.index_.end(), by_id)) {
     std::sort(result_.index_.begin(), result_.index_.end(), by_id);
   }
@@ -111,18 +118,32 @@ void Recovery::WritePoint(const AnswerBuffers& answer) {
 
 void Recovery::WriteBound(const AnswerBuffers& answer) {
   const sy_problem& problem = lowering_.problem().view();
-  if (!IsContinuousConvex(problem)) {
-    if (std::isfinite(answer.raw.bound)) result_.bound = InUserSense(answer.raw.bound);
-    return;
+  const bool convex = IsContinuousConvex(problem);
+  const bool bound_is_theirs =
+      problem.integer != nullptr || (backend_.traits & SY_PROVES_GLOBAL) != 0;
+  if (!convex && bound_is_theirs && std::isfinite(answer.raw.bound)) {
+    result_.bound = InUserSense(answer.raw.bound);
   }
   const bool has_duals = answer.raw.dual == SY_FEASIBLE || answer.raw.dual == SY_NEARLY_FEASIBLE ||
                          answer.raw.dual == SY_INFEASIBLE_POINT;
-  if (!has_duals) return;
+  if (!has_duals || problem.integer != nullptr) return;
   const bool has_point = result_.primal == PointKind::kFeasible;
-  const double cutoff = has_point ? InUserSense(result_.objective) : kInfinity;
   Vectors v = answer.vectors;
   if (answer.raw.primal == SY_NO_POINT || answer.raw.primal == SY_CERTIFICATE) v.x.clear();
-  const DualCheck check = CheckDuals(problem, v, cutoff);
+  std::optional<Problem> tangent;
+  if (problem.nlp != nullptr) {
+    if (!v.x.empty()) tangent = TangentProblem(problem, v.x);
+    if (!tangent.has_value()) return;
+    DualsOfTangentProblem(v);
+  }
+  const sy_problem& checked = tangent.has_value() ? tangent->view() : problem;
+  const double cutoff = has_point ? InUserSense(result_.objective) : kInfinity;
+  const DualCheck check = convex ? CheckDuals(checked, v, cutoff) : EstimateDuals(checked, v);
+  JudgeDuals(check, convex);
+}
+
+void Recovery::JudgeDuals(const DualCheck& check, bool convex) {
+  const bool has_point = result_.primal == PointKind::kFeasible;
   if (std::isfinite(check.bound)) result_.bound = InUserSense(check.bound);
   const auto apart = [&](double value) {
     return std::abs(InUserSense(result_.objective) - value) / (1 + std::abs(result_.objective));
@@ -132,7 +153,7 @@ void Recovery::WriteBound(const AnswerBuffers& answer) {
   const double error =
       std::isfinite(check.bound) ? std::min(apart(check.bound), by_estimate) : by_estimate;
   result_.dual = KindOf(has_point ? error : check.open_worth);
-  if (!std::isfinite(check.bound) && check.open_column >= 0 && has_point) {
+  if (convex && !std::isfinite(check.bound) && check.open_column >= 0 && has_point) {
     result_.notes.push_back(lowering_.WithNames(
         program_, Text("no bound is proven: x[", check.open_column,
                        "] has no finite box, and its reduced cost is 0 only to rounding")));
@@ -157,7 +178,29 @@ void Recovery::WriteDuals(const AnswerBuffers& answer) {
         segment(v.cone_dual, lowering_.FirstConeRow(k), binding.evaluator()->cone().dim);
     result_.duals_.emplace_back(binding, binding.evaluator()->DualInUserFrame(dual));
   }
+  WriteNonlinearDuals(v, sign);
   WriteBoxDuals(v.x_dual);
+}
+
+// Of a quadratic constraint that became the cone (1, upper - b'x, ...): d(cost)/d(upper) is the
+// negative of the second row's dual.
+void Recovery::WriteNonlinearDuals(const Vectors& v, double sign) {
+  for (std::size_t k = 0; k < program_.quadratic_constraints().size(); ++k) {
+    const auto place = lowering_.PlaceOfQuadratic(k);
+    const auto row = static_cast<std::size_t>(place.row);
+    double dual = 0;
+    if (place.row >= 0 && place.in_nlp) dual = v.nlp_dual[row];
+    if (place.row >= 0 && !place.in_nlp) dual = (place.mirrored ? 1 : -1) * v.cone_dual[row + 1];
+    result_.duals_.emplace_back(program_.quadratic_constraints()[k],
+                                Eigen::VectorXd::Constant(1, sign * dual));
+  }
+  for (std::size_t k = 0; k < program_.generic_constraints().size(); ++k) {
+    const auto& binding = program_.generic_constraints()[k];
+    result_.duals_.emplace_back(
+        binding,
+        sign * Eigen::Map<const Eigen::VectorXd>(v.nlp_dual.data() + lowering_.FirstNonlinearRow(k),
+                                                 binding.evaluator()->num_constraints()));
+  }
 }
 
 // A variable's dual belongs to the side that is active: to the first binding that sets it.
@@ -212,17 +255,24 @@ void Recovery::JudgeOptimum(const AnswerBuffers& answer) {
     return Doubt(Text("our check finds its point ", to_string(result_.primal),
                       ": rows are violated by ", result_.violation.rows, ", bounds by ",
                       result_.violation.bounds, ", cones by ", result_.violation.cones,
-                      ", integrality by ", result_.violation.integrality));
+                      ", functions by ", result_.violation.nonlinear, ", integrality by ",
+                      result_.violation.integrality));
   }
-  const bool needs_duals = result_.termination == Termination::kOptimal &&
-                           (backend_.traits & SY_GIVES_DUALS) != 0 &&
-                           IsContinuousConvex(lowering_.problem().view());
+  // A local optimum needs no duals, since there may be none; those that come have to hold.
+  const bool convex = IsContinuousConvex(lowering_.problem().view());
+  const bool local = result_.termination == Termination::kLocallyOptimal;
+  const bool needs_duals = (backend_.traits & SY_GIVES_DUALS) != 0 &&
+                           lowering_.problem().view().integer == nullptr &&
+                           ((result_.termination == Termination::kOptimal && convex) ||
+                            (local && answer.raw.dual != SY_NO_POINT));
   if (needs_duals && result_.dual != PointKind::kFeasible) {
     const bool none = answer.raw.dual == SY_NO_POINT;
-    return Doubt(none ? "it gives no duals to support that"
-                      : Text("its duals support ", result_.objective, " only to ",
-                             std::isnan(result_.bound) ? "an unknown accuracy"
-                                                       : Text("the bound ", result_.bound)));
+    return Doubt(none    ? "it gives no duals to support that"
+                 : local ? Text("its point and duals satisfy the conditions of first order only ",
+                                to_string(result_.dual) == "nearly_feasible" ? "to 1e-3" : "badly")
+                         : Text("its duals support ", result_.objective, " only to ",
+                                std::isnan(result_.bound) ? "an unknown accuracy"
+                                                          : Text("the bound ", result_.bound)));
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include "core/lower/lowering.hpp"
 #include "core/problem/vectors.hpp"
+#include "core/solve/check.hpp"
 #include "switchyard/abi.h"
 #include "switchyard/solve/result.hpp"
 
@@ -41,6 +42,8 @@ class Recovery {
   void WritePoint(const AnswerBuffers& answer);
   void WriteBound(const AnswerBuffers& answer);
   void WriteDuals(const AnswerBuffers& answer);
+  void JudgeDuals(const DualCheck& check, bool convex);
+  void WriteNonlinearDuals(const Vectors& v, double sign);
   void WriteBoxDuals(const std::vector<double>& x_dual);
   void JudgeOptimum(const AnswerBuffers& answer);
   void JudgeCertificates(const AnswerBuffers& answer);

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "core/model/eigenvalues.hpp"
 #include "switchyard/error.hpp"
 
 namespace switchyard {
@@ -54,7 +55,8 @@ void MathematicalProgramResult::SetPoint(std::vector<Variable> variables, Eigen:
 }
 
 int MathematicalProgramResult::IndexOf(Variable variable) const {
-  const auto place = std::lower_bound(variables_.begin(), variables_.end(), variable);
+  const auto place =
+      std::lower_bound(variables_.begin(), variables_.end(), variable, std::less<Variable>());
   if (place == variables_.end() || *place != variable) return -1;
   return index_[static_cast<std::size_t>(place - variables_.begin())];
 }
@@ -66,6 +68,36 @@ double MathematicalProgramResult::GetSolution(Variable variable) const {
   Require(j >= 0, "GetSolution: the variable with id ", variable.get_id(),
           " is not of the program that was solved");
   return x_[j];
+}
+
+Expression MathematicalProgramResult::GetSolution(const Expression& e) const {
+  Expression::Substitution values;
+  for (const Variable v : e.GetVariables()) {
+    if (Knows(v)) values.emplace(v, Expression(GetSolution(v)));
+  }
+  return e.Substitute(values);
+}
+
+SolutionResult MathematicalProgramResult::get_solution_result() const {
+  if (is_success()) return SolutionResult::kSolutionFound;
+  switch (termination) {
+    case Termination::kNotSolved:
+      return SolutionResult::kSolutionResultNotSet;
+    case Termination::kInfeasible:
+    case Termination::kLocallyInfeasible:
+    case Termination::kNoPath:
+      return SolutionResult::kInfeasibleConstraints;
+    case Termination::kUnbounded:
+      return SolutionResult::kUnbounded;
+    case Termination::kInfeasibleOrUnbounded:
+      return SolutionResult::kInfeasibleOrUnbounded;
+    case Termination::kIterationLimit:
+    case Termination::kTimeLimit:
+    case Termination::kNodeLimit:
+      return SolutionResult::kIterationLimit;
+    default:
+      return SolutionResult::kSolverSpecificError;
+  }
 }
 
 Eigen::VectorXd MathematicalProgramResult::GetDualSolution(
@@ -86,24 +118,38 @@ std::vector<Binding<Constraint>> MathematicalProgramResult::GetInfeasibleConstra
   return violated;
 }
 
+namespace {
+
+// "c[1]: 0 <= -2 <= 3" for each row that is outside; of a cone by how much, and of a matrix which
+// eigenvalue.
+void DescribeViolation(const Constraint& constraint, const Eigen::VectorXd& y, double tolerance,
+                       double violation, std::vector<std::string>& names) {
+  if (const auto* cone = dynamic_cast<const ConeConstraint*>(&constraint)) {
+    std::string how = Text("violated by ", violation);
+    if (cone->cone().kind == SY_CONE_PSD) {
+      const auto n = static_cast<Eigen::Index>(std::lround(std::sqrt(y.size())));
+      how = DescribeNegativeEigenvalues(Eigen::Map<const Eigen::MatrixXd>(y.data(), n, n));
+    }
+    names.push_back(Text(constraint.Name(), ": ", how));
+    return;
+  }
+  for (int i = 0; i < constraint.num_constraints(); ++i) {
+    const double lower = constraint.lower_bound()[i];
+    const double upper = constraint.upper_bound()[i];
+    if (y[i] >= lower - tolerance && y[i] <= upper + tolerance) continue;
+    names.push_back(Text(constraint.RowName(i), ": ", lower, " <= ", y[i], " <= ", upper));
+  }
+}
+
+}  // namespace
+
 std::vector<std::string> MathematicalProgramResult::GetInfeasibleConstraintNames(
     const MathematicalProgram& program, double tolerance) const {
   std::vector<std::string> names;
   for (const auto& binding : GetInfeasibleConstraints(program, tolerance)) {
-    const Constraint& constraint = *binding.evaluator();
-    const Eigen::VectorXd y = program.EvalBinding(binding, x_);
-    for (int i = 0; i < constraint.num_constraints(); ++i) {
-      const bool boxed = constraint.lower_bound().size() == y.size();
-      if (!boxed) {
-        names.push_back(constraint.Name());
-        break;
-      }
-      const double lower = constraint.lower_bound()[i];
-      const double upper = constraint.upper_bound()[i];
-      if (y[i] < lower - tolerance || y[i] > upper + tolerance) {
-        names.push_back(Text(constraint.RowName(i), ": ", lower, " <= ", y[i], " <= ", upper));
-      }
-    }
+    DescribeViolation(*binding.evaluator(), program.EvalBinding(binding, x_), tolerance,
+                      binding.evaluator()->Violation(program.ValuesOf(binding.variables(), x_)),
+                      names);
   }
   return names;
 }

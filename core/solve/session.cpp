@@ -5,6 +5,7 @@
 
 #include "core/host/facade.hpp"
 #include "core/problem/difference.hpp"
+#include "core/solve/dump.hpp"
 #include "switchyard/error.hpp"
 
 namespace switchyard {
@@ -26,8 +27,8 @@ class Timer {
 };
 
 bool Answers(Termination t) {
-  return t == Termination::kOptimal || t == Termination::kInfeasible ||
-         t == Termination::kUnbounded;
+  return t == Termination::kOptimal || t == Termination::kLocallyOptimal ||
+         t == Termination::kInfeasible || t == Termination::kUnbounded;
 }
 
 double BackendSeconds(const Instance* instance) {
@@ -76,11 +77,13 @@ double SolverSession::State::Spent() const {
 
 MathematicalProgramResult SolverSession::State::Solve(const std::optional<Eigen::VectorXd>& guess) {
   began_ = Clock::now();
+  TakeOptions();
   MathematicalProgramResult result;
   {
     const Timer timer(result.seconds.lower);
     unsent_ |= Lower();
   }
+  if (!options.problem_file.empty()) WriteProblem(lowering->problem().view(), options.problem_file);
   control_.emplace(options, lowering->maximize());
   if (lowering->crossed_variable() >= 0) {
     result.termination = Termination::kInfeasible;
@@ -100,8 +103,15 @@ MathematicalProgramResult SolverSession::State::Solve(const std::optional<Eigen:
   }
   result.considered = considered;
   result.seconds.total = Spent();
+  if (lowering->nonlinear() != nullptr) lowering->nonlinear()->RethrowWhatWasThrown();
   control_->RethrowWhatWasThrown();
   return result;
+}
+
+void SolverSession::State::TakeOptions() {
+  options = given;
+  options.Merge(program.solver_options());
+  if (log == nullptr) log = std::make_unique<SolveLog>(host, options);
 }
 
 std::uint64_t SolverSession::State::Lower() {
@@ -126,6 +136,7 @@ bool SolverSession::State::HandOver(const std::optional<Eigen::VectorXd>& guess,
       SendChanges();
     }
     unsent_ = 0;
+    lowering->ForgetReplaced();
     if (taken) Start(guess);
   }
   const bool same_instance = BackendSeconds(instance.get()) >= before;
@@ -135,12 +146,27 @@ bool SolverSession::State::HandOver(const std::optional<Eigen::VectorXd>& guess,
   return taken;
 }
 
+// A backend that takes functions and no cones gets convex quadratic constraints as what they are,
+// rather than as cones that a bridge makes functions of more variables.
+void SolverSession::State::ChooseForm() {
+  if (!lowering->has_quadratic_cones()) return;
+  for (const Candidate& candidate : host.Rank(lowering->problem().view(), names)) {
+    if (!candidate.suitable) continue;
+    const sy_solver& facts = candidate.backend->facts;
+    const bool functions = (facts.accepts & SY_ACCEPTS_NLP) != 0 && facts.cones == 0;
+    if (functions) lowering.emplace(program, Lowering::Quadratics::kFunctions);
+    return;
+  }
+}
+
 bool SolverSession::State::Choose(MathematicalProgramResult& result) {
-  constexpr std::uint64_t kNumbers = SY_UPDATES_BOUNDS | SY_UPDATES_VECTORS | SY_UPDATES_VALUES;
+  constexpr std::uint64_t kNumbers =
+      SY_UPDATES_BOUNDS | SY_UPDATES_VECTORS | SY_UPDATES_VALUES | SY_UPDATES_NLP;
   instance.reset();
+  ChooseForm();
   BackendChoice choice = ChooseBackend(
       host, lowering->problem().view(),
-      {names, &options, keeps ? kNumbers : 0,
+      {names, &options, &log->table(), keeps ? kNumbers : 0,
        [this](const std::string& text) { return lowering->WithNames(program, text); }});
   backend = choice.backend;
   instance = std::move(choice.instance);
@@ -206,7 +232,11 @@ bool SolverSession::State::RunOnce(const sy_control& control, MathematicalProgra
   Recovery recovery(program, *lowering, backend->facts, result);
   {
     const Timer timer(spent);
+    if (NonlinearPart* functions = lowering->nonlinear()) functions->ClearCounts();
     instance->Solve(control, answer.raw);
+    if (const NonlinearPart* functions = lowering->nonlinear()) {
+      result.evaluations = functions->counts();
+    }
     recovery.Write(answer);
   }
   const double inside = BackendSeconds(instance.get()) - before;

@@ -36,6 +36,19 @@ bool SolverInterface::Accepts(const MathematicalProgram& program, std::string* w
   return false;
 }
 
+std::string SolverInterface::ExplainUnsatisfiedProgramAttributes(
+    const MathematicalProgram& program) const {
+  std::string why;
+  return Accepts(program, &why) ? "" : why;
+}
+
+void SolverInterface::Solve(const MathematicalProgram& program,
+                            const std::optional<Eigen::VectorXd>& initial_guess,
+                            const std::optional<SolverOptions>& options,
+                            MathematicalProgramResult* result) const {
+  *result = Solve(program, initial_guess, options.value_or(SolverOptions()));
+}
+
 MathematicalProgramResult SolverInterface::Solve(
     const MathematicalProgram& program, const std::optional<Eigen::VectorXd>& initial_guess,
     const SolverOptions& options) const {

@@ -54,8 +54,8 @@ inline void TakeWhole(const sy_update& update, ProblemData& d) {
     CopyValues(given.P, d.P, "P has another pattern than the loaded one");
     CopyValues(given.A, d.A, "A has another pattern than the loaded one");
     CopyValues(given.F, d.F, "F has another pattern than the loaded one");
-    d.flags = given.flags;
   }
+  if ((update.whole & (SY_UPDATES_VALUES | SY_UPDATES_NLP)) != 0) d.flags = given.flags;
   d.nlp = given.nlp;
   d.hints = given.hints;
 }

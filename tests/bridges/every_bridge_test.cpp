@@ -10,6 +10,7 @@
 
 #include "core/bridges/bridge.hpp"
 #include "core/problem/difference.hpp"
+#include "core/solve/tangent.hpp"
 #include "tests/support/known_answers.hpp"
 
 namespace switchyard::testing {
@@ -34,6 +35,16 @@ void NaNToZero(Vectors& v) {
   for (Vector* part : {&v.x, &v.x_dual, &v.row_dual, &v.cone_dual}) {
     for (double& e : *part) e = std::isnan(e) ? 0 : e;
   }
+}
+
+/// The image with functions at their tangents, and the duals of that: a point is an optimum of the
+/// one where it is of the other.
+ProblemData WithoutFunctions(const ProblemData& image, Vectors& v) {
+  if (image.nlp == nullptr) return image;
+  const auto tangent = TangentProblem(Problem(image).view(), v.x);
+  if (!tangent.has_value()) return {};
+  DualsOfTangentProblem(v);
+  return tangent->data();
 }
 
 class EveryBridge : public ::testing::TestWithParam<std::size_t> {
@@ -67,7 +78,10 @@ TEST_P(EveryBridge, TakesAnOptimumToAnOptimumOfTheSameObjective) {
     const auto bridge = Apply(known.problem);
     Vectors v = known.at;
     bridge.maps->Forward(v);
-    EXPECT_LT(OptimumError(bridge.image, v), kTight) << seed;
+    const Vectors image_point = v;
+    const ProblemData image = WithoutFunctions(bridge.image, v);
+    EXPECT_LT(OptimumError(image, v), kTight) << seed;
+    v = image_point;
     EXPECT_NEAR(Objective(Problem(bridge.image).view(), v.x.data()),
                 Objective(Problem(known.problem).view(), known.at.x.data()), kTight);
   }
@@ -92,6 +106,7 @@ TEST_P(EveryBridge, ComesBackToWhereItStarted) {
 // worth must be the same in the original, so that a bound proven there is proven here. Two sides of
 // one row that are both charged cancel, which only gains.
 TEST_P(EveryBridge, BringsDualsBackAtTheirWorth) {
+  if ((kind().adds & SY_ACCEPTS_NLP) != 0) GTEST_SKIP() << "functions have no certificates";
   for (unsigned seed = 0; seed < kSeeds; ++seed) {
     Random random(seed);
     Shape shape = Everything();
@@ -131,6 +146,7 @@ TEST_P(EveryBridge, BringsDualsBackAtTheirWorth) {
 }
 
 TEST_P(EveryBridge, TakesAContradictionThereAndBack) {
+  if ((kind().adds & SY_ACCEPTS_NLP) != 0) GTEST_SKIP() << "functions have no certificates";
   for (unsigned seed = 0; seed < kSeeds; ++seed) {
     Random random(seed);
     const KnownAnswer known = KnownContradiction(Everything(), random);
@@ -147,6 +163,7 @@ TEST_P(EveryBridge, TakesAContradictionThereAndBack) {
 }
 
 TEST_P(EveryBridge, TakesARayThereAndBack) {
+  if ((kind().adds & SY_ACCEPTS_NLP) != 0) GTEST_SKIP() << "functions have no certificates";
   for (unsigned seed = 0; seed < kSeeds; ++seed) {
     Random random(seed);
     const KnownAnswer known = KnownRay(Everything(), random);

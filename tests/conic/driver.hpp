@@ -219,7 +219,8 @@ inline void ExpectRay(const ProblemData& given, const Found& found) {
   EXPECT_EQ(found.result.primal, SY_CERTIFICATE);
   EXPECT_EQ(found.result.dual, SY_NO_POINT);
   ProblemData d = given;
-  Vectors at{found.at.x, {}, {}, {}};
+  Vectors at;
+  at.x = found.at.x;
   DropConesThatAreOff(d, at);
   EXPECT_LE(testing::RayError(d, at.x), 1e-6);
 }

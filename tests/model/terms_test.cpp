@@ -15,7 +15,7 @@ using Eigen::VectorXd;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-// A kind of function that a program does not know.
+// Classes of a user's own, without derivatives.
 class Sine final : public Cost {
  public:
   Sine() : Cost(1) {}
@@ -27,7 +27,9 @@ class Sine final : public Cost {
 
 class SineRow final : public Constraint {
  public:
-  SineRow() : Constraint(1, 1) {}
+  explicit SineRow(bool with_bounds) : Constraint(1, 1) {
+    if (with_bounds) SetBounds("sine row", VectorXd::Zero(1), VectorXd::Zero(1));
+  }
   [[nodiscard]] std::string Kind() const override { return "sine row"; }
 
  private:
@@ -67,14 +69,25 @@ TEST(Terms, AreStoredByTheTypeOfTheirEvaluator) {
   EXPECT_EQ(program.GetAllConstraints().size(), constraints.size());
 }
 
-TEST(Terms, OfAKindThatIsNotKnownAreRefused) {
+TEST(Terms, OfAUsersOwnClassAreGeneric) {
   MathematicalProgram program;
   const auto x = program.NewContinuousVariables(1);
-  EXPECT_EQ(Said([&] { program.AddCost(std::make_shared<Sine>(), x); }),
-            "sine: a program holds linear, quadratic and norm costs, got a sine");
-  EXPECT_EQ(Said([&] { program.AddConstraint(std::make_shared<SineRow>(), x); }),
-            "sine row: a program holds linear, bounding box and cone constraints, got a sine row");
+  const auto cost = program.AddCost(std::make_shared<Sine>(), x);
+  const auto row = program.AddConstraint(std::make_shared<SineRow>(true), x);
+  EXPECT_EQ(program.generic_costs().size(), 1u);
+  EXPECT_EQ(program.generic_constraints().size(), 1u);
+  EXPECT_FALSE(cost.evaluator()->has_jacobian());
+  EXPECT_NEAR(program.EvalCosts(VectorXd::Constant(1, 0.5)), std::sin(0.5), 1e-15);
+  EXPECT_EQ(program.RemoveCost(cost), 1);
+  EXPECT_EQ(program.RemoveConstraint(row), 1);
   EXPECT_TRUE(program.GetAllCosts().empty());
+}
+
+TEST(Terms, ConstraintsWithoutBoundsAreRefused) {
+  MathematicalProgram program;
+  const auto x = program.NewContinuousVariables(1);
+  EXPECT_EQ(Said([&] { program.AddConstraint(std::make_shared<SineRow>(false), x); }),
+            "sine row: it needs bounds of its 1 rows, and its class has set none");
   EXPECT_TRUE(program.GetAllConstraints().empty());
 }
 

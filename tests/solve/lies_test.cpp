@@ -80,7 +80,7 @@ TEST(Lies, APointThatViolatesARowIsNoOptimum) {
   EXPECT_EQ(result.violation.rows, 0.5);
   EXPECT_EQ(OnlyNote(result),
             "test.fake says optimal; our check finds its point infeasible: rows are violated by "
-            "0.5, bounds by 0, cones by 0, integrality by 0");
+            "0.5, bounds by 0, cones by 0, functions by 0, integrality by 0");
 }
 
 TEST(Lies, APointThatNearlyFitsIsSaidToNearlyFit) {

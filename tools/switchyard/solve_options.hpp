@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "switchyard/host/host.hpp"
-#include "switchyard/solve/options.hpp"
+#include "switchyard/model/solver_options.hpp"
 
 namespace switchyard::cli {
 
@@ -25,19 +25,27 @@ struct SolveOptions {
   std::string log;
   std::string dump;
   std::vector<std::string> plugins;
+  int starts = 0;  // 0: one solve, from the guess of the file
+  bool check_derivatives = false;
   bool quiet = false;
   bool explain = false;
 
   void AddTo(CLI::App& command);
+  /// Those that `solve` alone has.
+  void AddOwnOfSolveTo(CLI::App& command);
 
   /// A host with --plugin and --log applied. Throws InvalidArgument for a plugin that cannot be
   /// used, with the reason.
   [[nodiscard]] std::unique_ptr<Host> MakeHost();
+  /// The same of the process's own host, which solves that run at once use.
+  void SetUp(Host& host);
   /// What a solve is given, `spent` seconds after the command began. Options named for a backend
   /// go to `host`.
   [[nodiscard]] SolverOptions ForSolver(Host& host, double spent) const;
 
  private:
+  void SendLog(Host& host);
+
   std::shared_ptr<std::ofstream> log_file_;
 };
 

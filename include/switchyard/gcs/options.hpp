@@ -5,22 +5,10 @@
 #include <string>
 
 #include "switchyard/export.hpp"
+#include "switchyard/model/parallelism.hpp"
 #include "switchyard/solve/solve.hpp"
 
 namespace switchyard {
-
-/// How many threads at most: of one, of all that the process may use, or of a number.
-class SWITCHYARD_EXPORT Parallelism {
- public:
-  Parallelism() = default;  // one
-  explicit Parallelism(int num_threads) : num_threads_(num_threads < 1 ? 1 : num_threads) {}
-  static Parallelism None() { return Parallelism(1); }
-  static Parallelism Max();
-  [[nodiscard]] int num_threads() const { return num_threads_; }
-
- private:
-  int num_threads_ = 1;
-};
 
 struct GraphOfConvexSetsOptions {
   /// true: the convex relaxation, rounded; with max_rounded_paths = 0 the relaxation alone. false:

@@ -13,6 +13,7 @@
 #include "switchyard/abi.h"
 #include "switchyard/error.hpp"
 #include "switchyard/export.hpp"
+#include "switchyard/host/program_type.hpp"
 
 namespace switchyard {
 
@@ -102,10 +103,20 @@ class SWITCHYARD_EXPORT Host {
   [[nodiscard]] const sy_host* table() const;
 
   /// All backends for a problem of this shape, best first: those named in `preference` (ids or
-  /// short names, comma-separated; empty: the rest in SWITCHYARD_SOLVERS, then all), suitable ones
-  /// before others. Strategies are considered only where named.
+  /// short names, comma-separated) alone; where it is empty those that are preferred for the
+  /// problem's class, then all others; suitable ones before others. Strategies are considered only
+  /// where named.
   [[nodiscard]] std::vector<Candidate> Rank(const sy_problem& problem,
                                             const std::string& preference = "") const;
+
+  /// Backends to try first, in order (ids or short names, comma-separated; empty: no preference any
+  /// more), for programs of a class, or for all whose class has no preference of its own. Goes
+  /// before SWITCHYARD_SOLVERS, which goes before the file switchyard/solvers.conf in
+  /// $XDG_CONFIG_HOME or ~/.config: lines "lp = clp, highs", or names alone for all classes. Throws
+  /// InvalidArgument for a name that no backend has.
+  void Prefer(std::optional<ProgramType> type, const std::string& names);
+  /// Is the backend ready, and does it take a program of that class, perhaps by bridges?
+  [[nodiscard]] bool Serves(const Backend& backend, ProgramType type) const;
 
   /// Options for a backend wherever it is used, also inside a strategy. Throws InvalidArgument for
   /// an unknown backend or option, with the nearest name, or a value out of its range.
@@ -117,6 +128,8 @@ class SWITCHYARD_EXPORT Host {
   void SetLog(LogSink sink);
 
  private:
+  [[nodiscard]] struct Preference PreferenceFor(ProgramType type) const;
+
   struct State;
   std::unique_ptr<State> state_;
 };

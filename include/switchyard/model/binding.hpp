@@ -1,14 +1,20 @@
 // switchyard/model/binding.hpp - an evaluator and the variables that it is applied to.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <type_traits>
 #include <utility>
 
 #include "switchyard/model/evaluator.hpp"
-#include "switchyard/model/variable.hpp"
+#include "switchyard/symbolic/variable.hpp"
 
 namespace switchyard {
+
+/// "linear cost: 2*x(0) + y"; of constraints with their bounds, a row a line; a function by its
+/// description and the variables.
+SWITCHYARD_EXPORT std::string DescribeBinding(const EvaluatorBase& evaluator,
+                                              const VectorXDecisionVariable& variables);
 
 /// A value: copies share the evaluator.
 template <class C>
@@ -34,13 +40,15 @@ class Binding {
     return static_cast<std::size_t>(variables_.size());
   }
   [[nodiscard]] bool ContainsVariable(Variable variable) const {
-    return (variables_.array() == variable).any();
+    return std::find(variables_.begin(), variables_.end(), variable) != variables_.end();
   }
+
+  [[nodiscard]] std::string to_string() const { return DescribeBinding(*evaluator_, variables_); }
 
   /// The same evaluator, by identity, on the same variables.
   friend bool operator==(const Binding& a, const Binding& b) {
-    return a.evaluator_ == b.evaluator_ && a.variables_.size() == b.variables_.size() &&
-           (a.variables_.array() == b.variables_.array()).all();
+    return a.evaluator_ == b.evaluator_ && std::equal(a.variables_.begin(), a.variables_.end(),
+                                                      b.variables_.begin(), b.variables_.end());
   }
 
  private:

@@ -19,6 +19,10 @@ class SWITCHYARD_EXPORT Constraint : public EvaluatorBase {
   [[nodiscard]] const Eigen::VectorXd& lower_bound() const { return lower_; }
   [[nodiscard]] const Eigen::VectorXd& upper_bound() const { return upper_; }
 
+  /// Is each component known to be convex where its upper side is finite, concave where its lower
+  /// side is? (Affine rows and cones are.)
+  [[nodiscard]] virtual bool is_convex() const { return false; }
+
   /// Is Violation(x) <= tolerance?
   [[nodiscard]] bool CheckSatisfied(const VectorRef& x, double tolerance = 1e-6) const {
     return Violation(x) <= tolerance;
@@ -58,6 +62,11 @@ class SWITCHYARD_EXPORT LinearConstraint : public Constraint {
   /// than the identity, an equality with two sides that differ.
   void UpdateCoefficients(CoefficientMatrix A, const VectorRef& lower, const VectorRef& upper);
   [[nodiscard]] std::string Kind() const override { return "linear constraint"; }
+  [[nodiscard]] bool is_convex() const override { return true; }
+  [[nodiscard]] bool has_jacobian() const override { return true; }
+  [[nodiscard]] bool has_hessian() const override { return true; }
+  [[nodiscard]] SparsityPattern JacobianPattern() const override;
+  [[nodiscard]] SparsityPattern HessianPattern() const override;
 
  protected:
   LinearConstraint(std::string_view kind, CoefficientMatrix A, const VectorRef& lower,
@@ -68,6 +77,7 @@ class SWITCHYARD_EXPORT LinearConstraint : public Constraint {
   void CheckAndStore(std::string_view name, CoefficientMatrix A, const VectorRef& lower,
                      const VectorRef& upper);
   [[nodiscard]] Eigen::VectorXd DoEval(const VectorRef& x) const final { return A_ * x; }
+  void DoEvaluate(const Evaluation& wanted) const final;
   [[nodiscard]] double ViolationOf(const Eigen::VectorXd& y) const final;
   SparseMatrix A_;
 };
@@ -117,6 +127,11 @@ class SWITCHYARD_EXPORT ConeConstraint : public Constraint {
   [[nodiscard]] Eigen::VectorXd DualInUserFrame(const VectorRef& abi_dual) const;
   /// Of the same dimensions.
   void UpdateCoefficients(CoefficientMatrix A, const VectorRef& b);
+  [[nodiscard]] bool is_convex() const override { return true; }
+  [[nodiscard]] bool has_jacobian() const override { return true; }
+  [[nodiscard]] bool has_hessian() const override { return true; }
+  [[nodiscard]] SparsityPattern JacobianPattern() const override;
+  [[nodiscard]] SparsityPattern HessianPattern() const override;
 
  protected:
   ConeConstraint(std::string_view kind, CoefficientMatrix&& A, const VectorRef& b, sy_cone cone,
@@ -124,6 +139,7 @@ class SWITCHYARD_EXPORT ConeConstraint : public Constraint {
 
  private:
   [[nodiscard]] Eigen::VectorXd DoEval(const VectorRef& x) const final { return A_ * x + b_; }
+  void DoEvaluate(const Evaluation& wanted) const final;
   [[nodiscard]] double ViolationOf(const Eigen::VectorXd& y) const final;
   void CheckAndStore(std::string_view name, CoefficientMatrix A, const VectorRef& b);
   SparseMatrix A_;

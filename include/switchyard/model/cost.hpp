@@ -8,6 +8,10 @@
 namespace switchyard {
 
 class SWITCHYARD_EXPORT Cost : public EvaluatorBase {
+ public:
+  /// Is it known to be convex where it is defined?
+  [[nodiscard]] virtual bool is_convex() const { return false; }
+
  protected:
   explicit Cost(int num_vars) : EvaluatorBase(num_vars, 1) {}
 };
@@ -20,9 +24,15 @@ class SWITCHYARD_EXPORT LinearCost final : public Cost {
   [[nodiscard]] double b() const { return b_; }
   void UpdateCoefficients(const VectorRef& a, double b = 0);
   [[nodiscard]] std::string Kind() const override { return "linear cost"; }
+  [[nodiscard]] bool is_convex() const override { return true; }
+  [[nodiscard]] bool has_jacobian() const override { return true; }
+  [[nodiscard]] bool has_hessian() const override { return true; }
+  [[nodiscard]] SparsityPattern JacobianPattern() const override;
+  [[nodiscard]] SparsityPattern HessianPattern() const override;
 
  private:
   [[nodiscard]] Eigen::VectorXd DoEval(const VectorRef& x) const override;
+  void DoEvaluate(const Evaluation& wanted) const override;
   Eigen::VectorXd a_;
   double b_;
 };
@@ -38,20 +48,26 @@ class SWITCHYARD_EXPORT QuadraticCost final : public Cost {
   [[nodiscard]] const SparseMatrix& Q() const { return Q_; }
   [[nodiscard]] const Eigen::VectorXd& b() const { return b_; }
   [[nodiscard]] double c() const { return c_; }
-  [[nodiscard]] bool is_convex() const { return is_convex_; }
+  [[nodiscard]] bool is_convex() const override { return is_convex_; }
   void UpdateCoefficients(const CoefficientMatrix& Q, const VectorRef& b, double c = 0,
                           std::optional<bool> is_convex = std::nullopt);
   [[nodiscard]] std::string Kind() const override { return "quadratic cost"; }
+  [[nodiscard]] bool has_jacobian() const override { return true; }
+  [[nodiscard]] bool has_hessian() const override { return true; }
+  [[nodiscard]] SparsityPattern JacobianPattern() const override;
+  [[nodiscard]] SparsityPattern HessianPattern() const override;
 
  private:
   [[nodiscard]] Eigen::VectorXd DoEval(const VectorRef& x) const override;
+  void DoEvaluate(const Evaluation& wanted) const override;
   SparseMatrix Q_;
   Eigen::VectorXd b_;
   double c_ = 0;
   bool is_convex_ = false;
 };
 
-/// A convex function of z = Ax + b that lowering writes with a cone: see NormCost::Norm.
+/// A convex function of z = Ax + b that lowering writes with a cone: see NormCost::Norm. Where it
+/// has a kink its derivative is one of the subgradients there, its second derivative 0.
 class SWITCHYARD_EXPORT NormCost : public Cost {
  public:
   enum class Norm {
@@ -66,12 +82,18 @@ class SWITCHYARD_EXPORT NormCost : public Cost {
   /// Of the same dimensions.
   void UpdateCoefficients(const CoefficientMatrix& A, const VectorRef& b);
   [[nodiscard]] std::string Kind() const override;
+  [[nodiscard]] bool is_convex() const override { return true; }
+  [[nodiscard]] bool has_jacobian() const override { return true; }
+  [[nodiscard]] bool has_hessian() const override { return true; }
+  [[nodiscard]] SparsityPattern JacobianPattern() const override;
+  [[nodiscard]] SparsityPattern HessianPattern() const override;
 
  protected:
   NormCost(Norm norm, const CoefficientMatrix& A, const VectorRef& b);
 
  private:
   [[nodiscard]] Eigen::VectorXd DoEval(const VectorRef& x) const override;
+  void DoEvaluate(const Evaluation& wanted) const override;
   void CheckAndStore(const CoefficientMatrix& A, const VectorRef& b, Eigen::Index rows);
   Norm norm_;
   SparseMatrix A_;

@@ -9,6 +9,7 @@
 
 #include "switchyard/error.hpp"
 #include "switchyard/export.hpp"
+#include "switchyard/functions/function.hpp"
 
 namespace switchyard {
 
@@ -52,7 +53,8 @@ class CoefficientMatrix {
 };
 
 /// A function R^num_vars -> R^num_outputs. Evaluation is const and may happen from several threads
-/// at once; the Update... members are for one thread while no other reads.
+/// at once where is_thread_safe(), which is so for all but functions of the user's that say
+/// otherwise; the Update... members are for one thread while no other reads.
 class SWITCHYARD_EXPORT EvaluatorBase {
  public:
   EvaluatorBase(const EvaluatorBase&) = delete;
@@ -70,6 +72,23 @@ class SWITCHYARD_EXPORT EvaluatorBase {
     *y = DoEval(x);
   }
 
+  // ---- Derivatives, exact where there are any ----
+
+  [[nodiscard]] virtual bool has_jacobian() const { return false; }
+  [[nodiscard]] virtual bool has_hessian() const { return false; }
+  [[nodiscard]] virtual bool is_thread_safe() const { return true; }
+  /// Where the Jacobian (num_outputs x num_vars) may differ from 0; everywhere, if nothing is said.
+  [[nodiscard]] virtual SparsityPattern JacobianPattern() const;
+  /// Where the upper triangle (row <= col) of the Hessian of any w'f may.
+  [[nodiscard]] virtual SparsityPattern HessianPattern() const;
+  /// Writes what is asked for, in the order of the patterns. Sizes are the caller's business.
+  void Evaluate(const Evaluation& wanted) const { DoEvaluate(wanted); }
+  /// num_outputs x num_vars. Throws InvalidArgument where x has another size than num_vars(), and
+  /// where there is no Jacobian.
+  [[nodiscard]] SparseMatrix EvalJacobian(VectorRef x) const;
+  /// The Hessian of weights'f, num_vars x num_vars, both triangles. Throws likewise.
+  [[nodiscard]] SparseMatrix EvalHessian(VectorRef x, VectorRef weights) const;
+
   /// Grows with every change of coefficients.
   [[nodiscard]] std::uint64_t version() const { return version_; }
 
@@ -84,6 +103,8 @@ class SWITCHYARD_EXPORT EvaluatorBase {
   EvaluatorBase(int num_vars, int num_outputs) : num_vars_(num_vars), num_outputs_(num_outputs) {}
   void CoefficientsChanged() { ++version_; }
   [[nodiscard]] virtual Eigen::VectorXd DoEval(const VectorRef& x) const = 0;
+  /// A class with derivatives writes all that is wanted; one without them leaves this as it is.
+  virtual void DoEvaluate(const Evaluation& wanted) const;
 
  private:
   int num_vars_;

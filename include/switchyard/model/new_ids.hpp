@@ -2,7 +2,7 @@
 #pragma once
 
 #include "switchyard/export.hpp"
-#include "switchyard/model/variable.hpp"
+#include "switchyard/symbolic/variable.hpp"
 
 namespace switchyard {
 

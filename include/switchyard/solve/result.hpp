@@ -9,8 +9,9 @@
 #include <vector>
 
 #include "switchyard/export.hpp"
+#include "switchyard/functions/evaluation_counts.hpp"
 #include "switchyard/model/program.hpp"
-#include "switchyard/solve/options.hpp"
+#include "switchyard/model/solver_options.hpp"
 
 namespace switchyard {
 
@@ -39,6 +40,20 @@ enum class Termination {
 };
 /// "optimal", "time_limit", ...: the words of result/1.
 SWITCHYARD_EXPORT std::string_view to_string(Termination termination);
+
+/// The one word that Drake's users know for a termination; kNumericalTrouble and whatever has no
+/// word of its own is kSolverSpecificError.
+enum class SolutionResult {
+  kSolutionFound = 0,
+  kInvalidInput = -1,
+  kInfeasibleConstraints = -2,
+  kUnbounded = -3,
+  kSolverSpecificError = -4,
+  kInfeasibleOrUnbounded = -5,
+  kIterationLimit = -6,
+  kDualInfeasible = -7,
+  kSolutionResultNotSet = -8
+};
 
 /// What a vector of the result is.
 enum class PointKind { kNone, kFeasible, kNearlyFeasible, kInfeasible, kRay };
@@ -90,12 +105,14 @@ class SWITCHYARD_EXPORT MathematicalProgramResult {
   std::string solver;  // id
   std::string solver_version;
   double objective = std::numeric_limits<double>::quiet_NaN();  // in the program's sense
-  /// On the optimum: proven by us from the duals where the program is continuous and convex
-  /// (NaN: nothing could be proven), the backend's word where there are integers.
+  /// On the optimum: proven by us from the duals where the program is continuous and convex, which
+  /// of functions is taken as declared (NaN: nothing could be proven); the backend's word where
+  /// there are integers, or where it proves global optima.
   double bound = std::numeric_limits<double>::quiet_NaN();
   Violation violation;
   std::int64_t iterations = -1;
   std::int64_t nodes = -1;
+  EvaluationCounts evaluations;  // of the program's functions by the backend
   SolveTimes seconds;
 
   /// |objective - bound| / max(1e-10, |objective|); NaN without both.
@@ -121,6 +138,29 @@ class SWITCHYARD_EXPORT MathematicalProgramResult {
     return values;
   }
   [[nodiscard]] const Eigen::VectorXd& GetSolution() const { return x_; }
+  /// With the solution's values put for the program's variables; others stay.
+  [[nodiscard]] Expression GetSolution(const Expression& e) const;
+  template <class Derived>
+  requires std::is_same_v<typename Derived::Scalar, Expression>
+  [[nodiscard]] auto GetSolution(const Eigen::MatrixBase<Derived>& expressions) const {
+    Eigen::Matrix<Expression, Derived::RowsAtCompileTime, Derived::ColsAtCompileTime> values(
+        expressions.rows(), expressions.cols());
+    for (Eigen::Index j = 0; j < expressions.cols(); ++j) {
+      for (Eigen::Index i = 0; i < expressions.rows(); ++i) {
+        values(i, j) = GetSolution(expressions(i, j));
+      }
+    }
+    return values;
+  }
+  /// The evaluator's value at the solution.
+  template <class C>
+  [[nodiscard]] Eigen::VectorXd EvalBinding(const Binding<C>& binding) const {
+    Eigen::VectorXd y;
+    binding.evaluator()->Eval(GetSolution(binding.variables()), &y);
+    return y;
+  }
+  /// In one word.
+  [[nodiscard]] SolutionResult get_solution_result() const;
   /// The shadow price of the constraint's right-hand side: d(optimal cost) / d(rhs), an active
   /// lower side >= 0 and an active upper side <= 0 where the program minimizes; of a cone, the dual
   /// y in its dual cone, -d(cost)/d(b). Throws InvalidArgument where there is none.

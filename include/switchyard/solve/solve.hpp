@@ -9,7 +9,7 @@
 #include "switchyard/export.hpp"
 #include "switchyard/host/host.hpp"
 #include "switchyard/model/program.hpp"
-#include "switchyard/solve/options.hpp"
+#include "switchyard/model/solver_options.hpp"
 #include "switchyard/solve/result.hpp"
 
 namespace switchyard {
@@ -21,8 +21,8 @@ Solve(const MathematicalProgram& program,
       const std::optional<Eigen::VectorXd>& initial_guess = std::nullopt,
       const SolverOptions& options = {});
 
-/// A handle on a backend, or on an order of preference among backends.
-class SWITCHYARD_EXPORT SolverInterface {
+/// A handle on a backend, or on an order of preference among backends. A value: it holds names.
+class SWITCHYARD_EXPORT SolverInterface final {
  public:
   /// `names`: ids or short names in order of preference, comma-separated; "": the best for each
   /// program. `host` must outlive the handle.
@@ -30,13 +30,23 @@ class SWITCHYARD_EXPORT SolverInterface {
 
   /// Is one of the backends there and ready?
   [[nodiscard]] bool available() const;
+  [[nodiscard]] bool enabled() const { return available(); }
   [[nodiscard]] SolverId solver_id() const { return SolverId(names_); }
   /// Does one of the backends take this program? `why` receives the reasons where none does.
   [[nodiscard]] bool Accepts(const MathematicalProgram& program, std::string* why = nullptr) const;
+  [[nodiscard]] bool AreProgramAttributesSatisfied(const MathematicalProgram& program) const {
+    return Accepts(program);
+  }
+  /// "" where it is accepted.
+  [[nodiscard]] std::string ExplainUnsatisfiedProgramAttributes(
+      const MathematicalProgram& program) const;
   [[nodiscard]] MathematicalProgramResult Solve(
       const MathematicalProgram& program,
       const std::optional<Eigen::VectorXd>& initial_guess = std::nullopt,
       const SolverOptions& options = {}) const;
+  void Solve(const MathematicalProgram& program,
+             const std::optional<Eigen::VectorXd>& initial_guess,
+             const std::optional<SolverOptions>& options, MathematicalProgramResult* result) const;
 
  private:
   std::string names_;

@@ -1,9 +1,8 @@
-// switchyard/model/variable.hpp - a decision variable: an id. Its name, type and bounds are the
+// switchyard/symbolic/variable.hpp - a decision variable: an id. Its name, type and bounds are the
 // program's.
 #pragma once
 
 #include <Eigen/Core>
-#include <compare>
 #include <cstdint>
 #include <functional>
 #include <initializer_list>
@@ -11,11 +10,19 @@
 #include <type_traits>
 #include <vector>
 
+#include "switchyard/symbolic/eigen_traits.hpp"
+
 namespace switchyard {
 
 enum class VariableType : std::uint8_t { kContinuous, kInteger, kBinary };
 
+struct VariableEquality;
+
 /// An id, unique in the process. Two variables are the same exactly when their ids are equal.
+///
+/// `a == b` is both: as a bool it says whether they are the same variable, as a formula
+/// (formula.hpp) that their values are equal. The other comparisons are formulas alone; containers
+/// order variables by std::less, which is by id.
 class Variable {
  public:
   using Id = std::int64_t;
@@ -25,12 +32,21 @@ class Variable {
 
   [[nodiscard]] Id get_id() const { return id_; }
   [[nodiscard]] bool is_dummy() const { return id_ == 0; }
-  friend bool operator==(Variable a, Variable b) { return a.id_ == b.id_; }
-  friend auto operator<=>(Variable a, Variable b) { return a.id_ <=> b.id_; }
+  [[nodiscard]] bool equal_to(Variable other) const { return id_ == other.id_; }
+  friend constexpr VariableEquality operator==(Variable a, Variable b);
+  friend bool operator!=(Variable a, Variable b) { return a.id_ != b.id_; }
 
  private:
   Id id_ = 0;
 };
+
+struct VariableEquality {
+  Variable left;
+  Variable right;
+  // NOLINTNEXTLINE(google-explicit-constructor): the common meaning of ==
+  operator bool() const { return left.equal_to(right); }
+};
+constexpr VariableEquality operator==(Variable a, Variable b) { return {a, b}; }
 
 using DecisionVariable = Variable;
 template <int rows, int cols>
@@ -86,5 +102,11 @@ template <>
 struct std::hash<switchyard::Variable> {
   std::size_t operator()(switchyard::Variable v) const noexcept {
     return std::hash<switchyard::Variable::Id>()(v.get_id());
+  }
+};
+template <>
+struct std::less<switchyard::Variable> {
+  bool operator()(switchyard::Variable a, switchyard::Variable b) const noexcept {
+    return a.get_id() < b.get_id();
   }
 };

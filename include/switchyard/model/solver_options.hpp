@@ -1,4 +1,4 @@
-// switchyard/solve/options.hpp - what a user sets for a solve.
+// switchyard/model/solver_options.hpp - what a user sets for a solve.
 #pragma once
 
 #include <atomic>
@@ -29,6 +29,14 @@ class SWITCHYARD_EXPORT SolverId {
 };
 inline const std::string& to_string(const SolverId& id) { return id.name(); }
 
+/// Settings that Drake's users know by these names; the struct below has them as fields.
+enum class CommonSolverOption {
+  kPrintFileName,                   // log_file
+  kPrintToConsole,                  // verbosity 1 instead of 0, and log_to_console
+  kStandaloneReproductionFileName,  // problem_file
+  kMaxThreads,                      // threads
+};
+
 /// What a solve reports while it runs; numbers that are not known are NaN, counts -1.
 struct SolveProgress {
   double seconds = 0;
@@ -44,14 +52,17 @@ struct SolveProgress {
 
 /// Settings that all backends share; what a backend does not keep is said in the result's notes.
 /// NaN: the backend's own.
-struct SolverOptions {
+struct SWITCHYARD_EXPORT SolverOptions {
   using OptionValue = std::variant<double, int, std::string>;
 
   double time_limit = std::numeric_limits<double>::infinity();  // seconds of wall clock
   std::int64_t iteration_limit = std::numeric_limits<std::int64_t>::max();
   std::int64_t node_limit = std::numeric_limits<std::int64_t>::max();
-  int threads = 0;                                           // 0: the cores allowed
-  int verbosity = 0;                                         // of the log
+  int threads = 0;              // 0: the cores allowed
+  int verbosity = 0;            // of the log
+  bool log_to_console = false;  // lines of the log to standard error
+  std::string log_file;         // lines of the log are appended to it; "": nowhere
+  std::string problem_file;     // the lowered problem is written there as JSON; "": nowhere
   double cutoff = std::numeric_limits<double>::quiet_NaN();  // in the program's sense
   double target = std::numeric_limits<double>::quiet_NaN();
   double feasibility_tolerance = std::numeric_limits<double>::quiet_NaN();
@@ -70,6 +81,10 @@ struct SolverOptions {
   void SetOption(const SolverId& solver, const std::string& key, OptionValue value) {
     options[solver.name()][key] = std::move(value);
   }
+  /// Throws InvalidArgument for a value of another type.
+  void SetOption(CommonSolverOption key, const OptionValue& value);
+  /// What is unset here is taken from `other`.
+  void Merge(const SolverOptions& other);
 };
 
 }  // namespace switchyard
