@@ -21,74 +21,46 @@ using linear::Watch;
 constexpr double kFeasible = 1e-7;
 // Relative gap to the bound of its duals of a point that is optimal, where Ipopt has not said so.
 constexpr double kGap = 1e-8;
+// The same without a bound: the error of the optimality conditions.
+constexpr double kStationary = 1e-6;
 
-/// The largest violation of a row, relative to the row's largest term. The bounds hold.
-double Violation(const sy_problem& p, const std::vector<double>& x) {
-  std::vector<double> value(static_cast<std::size_t>(p.num_rows), 0.0);
-  std::vector<double> largest(value.size(), 0.0);
-  for (std::int32_t j = 0; p.A != nullptr && j < p.num_vars; ++j) {
-    for (std::int32_t k = p.A->start[j]; k < p.A->start[j + 1]; ++k) {
-      const auto i = static_cast<std::size_t>(p.A->row[k]);
-      const double term = p.A->value[k] * x[static_cast<std::size_t>(j)];
-      value[i] += term;
-      largest[i] = std::max(largest[i], std::abs(term));
-    }
-  }
-  double worst = 0;
-  for (std::size_t i = 0; i < value.size(); ++i) {
-    const double outside = std::max(p.row_lower[i] - value[i], value[i] - p.row_upper[i]);
-    worst = std::max(worst, outside / (1 + largest[i]));
-  }
-  return worst;
+bool IsSolved(sy_termination termination) {
+  return termination == SY_OPTIMAL || termination == SY_LOCALLY_OPTIMAL;
 }
 
-/// The name of Ipopt's status.
-const char* Words(Ipopt::ApplicationReturnStatus status) {
-  switch (status) {
-    case Ipopt::Solve_Succeeded:
-      return "Solve_Succeeded";
-    case Ipopt::Solved_To_Acceptable_Level:
-      return "Solved_To_Acceptable_Level";
-    case Ipopt::Infeasible_Problem_Detected:
-      return "Infeasible_Problem_Detected";
-    case Ipopt::Search_Direction_Becomes_Too_Small:
-      return "Search_Direction_Becomes_Too_Small";
-    case Ipopt::Diverging_Iterates:
-      return "Diverging_Iterates";
-    case Ipopt::User_Requested_Stop:
-      return "User_Requested_Stop";
-    case Ipopt::Feasible_Point_Found:
-      return "Feasible_Point_Found";
-    case Ipopt::Maximum_Iterations_Exceeded:
-      return "Maximum_Iterations_Exceeded";
-    case Ipopt::Restoration_Failed:
-      return "Restoration_Failed";
-    case Ipopt::Error_In_Step_Computation:
-      return "Error_In_Step_Computation";
-    case Ipopt::Maximum_CpuTime_Exceeded:
-      return "Maximum_CpuTime_Exceeded";
-    case Ipopt::Not_Enough_Degrees_Of_Freedom:
-      return "Not_Enough_Degrees_Of_Freedom";
-    case Ipopt::Invalid_Number_Detected:
-      return "Invalid_Number_Detected";
-    case Ipopt::Insufficient_Memory:
-      return "Insufficient_Memory";
-    default:
-      return "another status";
-  }
-}
+/// The wish of the host where it is the stricter one.
+double Stricter(double own, double asked) { return std::isnan(asked) ? own : std::min(own, asked); }
 
 }  // namespace
 
+void Solver::Supports(const sy_host&, const sy_problem& problem) {
+  if (problem.nlp == nullptr) return;
+  const auto lacks = [&](std::uint32_t what) { return (problem.nlp->provides & what) == 0; };
+  const auto refuse = [](const char* what) {
+    throw plugin::Failure(SY_E_UNSUPPORTED, std::string("Ipopt needs ") + what +
+                                                "; the nonlinear functions come without");
+  };
+  if (HasObjective(problem) && lacks(SY_GRADIENT)) refuse("the gradient of the objective");
+  if (!HasConstraints(problem)) return;
+  if (lacks(SY_CONSTRAINTS)) refuse("the values of the constraints");
+  if (lacks(SY_JACOBIAN)) refuse("the Jacobian of the constraints");
+}
+
 void Solver::Load(const sy_problem& problem, std::uint64_t) {
+  Supports(host_, problem);
   problem_ = Problem(problem);
   FillBounds();
   start_ = last_ = {};
   start_is_new_ = false;
 }
 
+// Other functions are convex or not on their own account.
 void Solver::Update(const sy_update& update) {
+  if (update.problem != nullptr) Supports(host_, *update.problem);
   problem_.Apply(update);
+  if ((update.whole & SY_UPDATES_NLP) != 0) {
+    problem_.Change([&](ProblemData& d) { d.flags = update.problem->flags; });
+  }
   FillBounds();
 }
 
@@ -106,13 +78,15 @@ void Solver::WarmStart(const sy_start& start) {
   };
   const sy_problem& p = problem_.view();
   start_ = {take(start.x, p.num_vars), take(start.x_dual, p.num_vars),
-            take(start.row_dual, p.num_rows)};
+            take(start.row_dual, p.num_rows),
+            take(start.nlp_dual, HasConstraints(p) ? p.nlp->num_constraints : 0)};
   start_is_new_ = true;
 }
 
 bool Solver::convex() const {
   const sy_problem& p = problem_.view();
-  return p.P == nullptr || (p.flags & SY_PROBLEM_CONVEX) != 0;
+  const bool linear = p.P == nullptr && !HasFunctions(p);
+  return linear || (p.flags & SY_PROBLEM_CONVEX) != 0;
 }
 
 // A start given since the last solve replaces what that solve left.
@@ -124,23 +98,24 @@ const Point& Solver::Begin(bool proceed) {
 
 void Solver::Solve(const sy_control& control, sy_result& result) {
   Watch watch(control);
+  Functions functions(problem_.view(), watch);
   linear::Clear(result);
-  if (AnswerConstants(control, result)) {
-    result.seconds = watch.Seconds();
-    return;
-  }
-  const Point& start = Begin((control.flags & SY_CONTINUE) != 0);
-  if (watch.Stopped(0)) {
-    result.termination = watch.reason();
-    linear::Say(result, "stopped before the first iteration");
-  } else {
-    Report(Run(problem_.view(), start, options_, host_, watch), watch, result);
+  if (!AnswerConstants(control, functions, result)) {
+    const Point& start = Begin((control.flags & SY_CONTINUE) != 0);
+    const Session session = {options_, host_, watch};
+    if (watch.Stopped(0)) {
+      result.termination = watch.reason();
+      linear::Say(result, "stopped before the first iteration");
+    } else {
+      Report(Run(problem_.view(), functions, start, session), functions, session, result);
+    }
   }
   result.seconds = watch.Seconds();
 }
 
 // Ipopt wants a variable that is not fixed.
-bool Solver::AnswerConstants(const sy_control& control, sy_result& result) const {
+bool Solver::AnswerConstants(const sy_control& control, Functions& functions,
+                             sy_result& result) const {
   const sy_problem& p = problem_.view();
   const double tolerance =
       std::isnan(control.feasibility) ? options_.Real("tol") : control.feasibility;
@@ -153,22 +128,41 @@ bool Solver::AnswerConstants(const sy_control& control, sy_result& result) const
   for (std::int32_t j = 0; j < p.num_vars; ++j) {
     if (p.x_lower[j] != p.x_upper[j]) return false;
   }
-  result.termination = SY_OPTIMAL;
-  const std::vector<double> none(static_cast<std::size_t>(p.num_rows), 0.0);
-  ReportPoint({problem_.data().x_lower, {}, none}, result);
-  result.bound = result.objective;
-  linear::Say(result, "no variable that is not fixed");
+  functions.Finish();
+  const double allowed = std::isnan(control.feasibility) ? kFeasible : control.feasibility;
+  const auto none = [](std::int32_t count) {
+    return std::vector<double>(static_cast<std::size_t>(count), 0.0);
+  };
+  const std::int32_t constraints = HasConstraints(p) ? p.nlp->num_constraints : 0;
+  const auto at =
+      Measure(p, functions, {problem_.data().x_lower, {}, none(p.num_rows), none(constraints)});
+  if (!at) {
+    result.termination = SY_EVALUATION_FAILED;
+    linear::Say(result, functions.ended() ? "a function ended the solve"
+                                          : "all variables are fixed where the functions are not "
+                                            "defined");
+  } else if (constraints > 0 && at->violation > allowed) {
+    result.termination = SY_INFEASIBLE;
+    result.bound = kInfinity;
+    linear::Say(result, "all variables are fixed where the constraints do not hold");
+  } else {
+    result.termination = SY_OPTIMAL;
+    ReportPoint(*at, control, result);
+    result.bound = result.objective;
+    linear::Say(result, "no variable that is not fixed");
+  }
   return true;
 }
 
-sy_termination Solver::Reason(const Found& found, const Watch& watch) const {
+sy_termination Solver::Reason(const Found& found, const std::optional<Measured>& at,
+                              const Functions& functions, const sy_control& control) const {
+  const sy_termination solved = convex() ? SY_OPTIMAL : SY_LOCALLY_OPTIMAL;
+  if (functions.ended()) return SY_EVALUATION_FAILED;
   switch (found.status) {
     case Ipopt::Solve_Succeeded:
-      return convex() ? SY_OPTIMAL : SY_LOCALLY_OPTIMAL;
+      return at ? solved : SY_EVALUATION_FAILED;
     case Ipopt::Infeasible_Problem_Detected:
       return SY_LOCALLY_INFEASIBLE;
-    case Ipopt::User_Requested_Stop:
-      return watch.reason();
     case Ipopt::Maximum_Iterations_Exceeded:
       return SY_ITERATION_LIMIT;
     case Ipopt::Maximum_CpuTime_Exceeded:
@@ -178,48 +172,65 @@ sy_termination Solver::Reason(const Found& found, const Watch& watch) const {
     case Ipopt::Insufficient_Memory:
       return SY_MEMORY_LIMIT;
     default:
-      return SY_NUMERICAL_TROUBLE;
+      break;
   }
+  // No step led further, and perhaps none was needed.
+  const bool none_needed = HasFunctions(problem_.view()) && at &&
+                           at->violation <= Stricter(kFeasible, control.feasibility) &&
+                           at->optimality <= Stricter(kStationary, control.optimality);
+  return none_needed ? solved : SY_NUMERICAL_TROUBLE;
 }
 
-void Solver::Report(Found found, Watch& watch, sy_result& result) {
-  result.termination = Reason(found, watch);
+void Solver::Report(Found found, Functions& functions, const Session& session, sy_result& result) {
+  functions.Finish();
+  std::optional<Measured> at;
+  if (found.has_point) at = Measure(problem_.view(), functions, std::move(found.point));
+  result.termination = found.status == Ipopt::User_Requested_Stop && !functions.ended()
+                           ? session.watch.reason()
+                           : Reason(found, at, functions, session.watch.control());
   result.iterations = found.iterations;
-  linear::Say(result, Words(found.status));
+  linear::Say(result, Words(found, at, functions));
   last_ = {};
-  if (found.has_point) {
-    ReportPoint(found.point, result);
-    const sy_problem& p = problem_.view();
-    Duals duals = linear::Complete(p, found.point.x.data(), found.point.row_dual);
-    last_ = {std::move(found.point.x), std::move(duals.x), std::move(duals.row)};
+  if (at) {
+    ReportPoint(*at, session.watch.control(), result);
+    last_ = std::move(at->point);
   }
   if (result.termination == SY_LOCALLY_INFEASIBLE || found.status == Ipopt::Diverging_Iterates ||
       (result.termination == SY_NUMERICAL_TROUBLE && result.primal != SY_FEASIBLE)) {
-    SeekProof(watch, result);
+    SeekProof(session, result);
   } else if (result.termination == SY_NUMERICAL_TROUBLE && result.primal == SY_FEASIBLE &&
              result.objective - result.bound <= kGap * (1 + std::abs(result.objective))) {
     result.termination = SY_OPTIMAL;  // no step led further, and none was needed
   }
 }
 
-// A dual is feasible where its objective is a bound at all.
-void Solver::ReportPoint(const Point& point, sy_result& result) const {
+// A dual is feasible where its objective is a bound at all; with functions there is no such bound,
+// and the optimality conditions decide.
+void Solver::ReportPoint(const Measured& at, const sy_control& control, sy_result& result) const {
   const sy_problem& p = problem_.view();
-  const bool solved = result.termination == SY_OPTIMAL || result.termination == SY_LOCALLY_OPTIMAL;
-  const bool feasible = solved || Violation(p, point.x) <= kFeasible;
-  result.primal = feasible ? SY_FEASIBLE : SY_INFEASIBLE_POINT;
-  result.objective = Objective(p, point.x.data());
-  linear::Put(result.x, point.x);
-  const Duals duals = linear::Complete(p, point.x.data(), point.row_dual);
-  const double bound = linear::DualObjective(p, point.x.data(), duals, linear::kRayNoise);
+  const bool solved = IsSolved(result.termination);
+  result.primal = solved || at.violation <= kFeasible ? SY_FEASIBLE : SY_INFEASIBLE_POINT;
+  result.objective = at.objective;
+  linear::Put(result.x, at.point.x);
+  linear::Put(result.nlp_dual, at.point.nlp_dual);
+  const Duals duals = {at.point.x_dual, at.point.row_dual};
+  if (HasFunctions(p)) {
+    const double asked = std::isnan(control.optimality) ? 0 : control.optimality;
+    const bool holds = solved && at.optimality <= std::max(kStationary, asked);
+    linear::Put(result, duals, holds ? SY_FEASIBLE : SY_INFEASIBLE_POINT);
+    return;
+  }
+  const double bound = linear::DualObjective(p, at.point.x.data(), duals, linear::kRayNoise);
   linear::Put(result, duals, solved || bound > -kInfinity ? SY_FEASIBLE : SY_INFEASIBLE_POINT);
   if (convex()) result.bound = result.termination == SY_OPTIMAL ? result.objective : bound;
 }
 
-// "Infeasible" and "diverging" of Ipopt are local: a certificate makes them a verdict.
-void Solver::SeekProof(Watch& watch, sy_result& result) {
+// "Infeasible" and "diverging" of Ipopt are local: a certificate makes them a verdict. Linear rows
+// that contradict each other do so whatever the functions are; a ray says nothing of these.
+void Solver::SeekProof(const Session& session, sy_result& result) const {
   const sy_problem& p = problem_.view();
-  const Feasibility rows = SeekFarkas(p, options_, host_, watch, result.iterations);
+  if (HasFunctions(p) && p.num_rows == 0) return;
+  const Feasibility rows = SeekFarkas(p, session, result.iterations);
   result.iterations += rows.iterations;
   if (rows.farkas) {
     result.termination = SY_INFEASIBLE;
@@ -227,9 +238,17 @@ void Solver::SeekProof(Watch& watch, sy_result& result) {
     result.objective = linear::kNaN;
     result.bound = kInfinity;
     linear::Put(result, *rows.farkas, SY_CERTIFICATE);
+    if (HasConstraints(p) && result.nlp_dual != nullptr) {
+      std::fill_n(result.nlp_dual, p.nlp->num_constraints, 0.0);
+    }
+    return;
   }
-  if (rows.farkas || (!rows.has_point && result.primal != SY_FEASIBLE)) return;
-  const Recession descent = SeekRay(p, options_, host_, watch, result.iterations);
+  if (HasFunctions(p) || (!rows.has_point && result.primal != SY_FEASIBLE)) return;
+  SeekUnboundedness(session, result);
+}
+
+void Solver::SeekUnboundedness(const Session& session, sy_result& result) const {
+  const Recession descent = SeekRay(problem_.view(), session, result.iterations);
   result.iterations += descent.iterations;
   if (!descent.ray) return;
   result.termination = SY_UNBOUNDED;
@@ -246,12 +265,13 @@ sy_solver Solver::Describe() {
   t.version = IPOPT_VERSION;
   t.license = IPOPT_VERSION_MAJOR > 3 || IPOPT_VERSION_MINOR >= 14 ? "EPL-2.0" : "EPL-1.0";
   t.accepts = SY_ACCEPTS_BOUNDS | SY_ACCEPTS_ROWS | SY_ACCEPTS_QUADRATIC_OBJECTIVE |
-              SY_ACCEPTS_NONCONVEX_OBJECTIVE;
-  // Of a nonconvex objective the optimum is a local one; MUMPS keeps global state.
-  t.traits = SY_GIVES_DUALS | SY_GIVES_CERTIFICATES | SY_ONE_AT_A_TIME | SY_OPEN_OPTIONS;
+              SY_ACCEPTS_NONCONVEX_OBJECTIVE | SY_ACCEPTS_NLP;
+  // Where a program is not convex the optimum is a local one; MUMPS keeps global state.
+  t.traits = SY_NEEDS_GRADIENT | SY_GIVES_DUALS | SY_GIVES_CERTIFICATES | SY_ONE_AT_A_TIME |
+             SY_OPEN_OPTIONS;
   t.honors = SY_HONORS_THREADS | SY_HONORS_SECONDS | SY_HONORS_ITERATIONS | SY_HONORS_FEASIBILITY |
              SY_HONORS_OPTIMALITY | SY_HONORS_VERBOSITY | SY_HONORS_CANCELLED;
-  t.updates = SY_UPDATES_BOUNDS | SY_UPDATES_VECTORS | SY_UPDATES_VALUES;
+  t.updates = SY_UPDATES_BOUNDS | SY_UPDATES_VECTORS | SY_UPDATES_VALUES | SY_UPDATES_NLP;
   t.options = OptionTable();
   return t;
 }

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string_view>
 
-#include "linear/duals.hpp"
-#include "linear/watch.hpp"
+#include "answer.hpp"
+#include "functions.hpp"
 #include "nlp.hpp"
 #include "options.hpp"
+#include "run.hpp"
 #include "switchyard/abi.h"
 #include "switchyard/problem.hpp"
 
@@ -16,6 +18,7 @@ namespace switchyard::ipopt {
 class Solver {
  public:
   static sy_solver Describe();
+  static void Supports(const sy_host& host, const sy_problem& problem);
   explicit Solver(const sy_host& host) : host_(host) {}
 
   void SetOption(std::string_view name, const sy_value& value) { options_.Set(name, value); }
@@ -28,11 +31,13 @@ class Solver {
   void FillBounds();
   [[nodiscard]] bool convex() const;
   const Point& Begin(bool proceed);
-  bool AnswerConstants(const sy_control& control, sy_result& result) const;
-  [[nodiscard]] sy_termination Reason(const Found& found, const linear::Watch& watch) const;
-  void Report(Found found, linear::Watch& watch, sy_result& result);
-  void ReportPoint(const Point& point, sy_result& result) const;
-  void SeekProof(linear::Watch& watch, sy_result& result);
+  bool AnswerConstants(const sy_control& control, Functions& functions, sy_result& result) const;
+  [[nodiscard]] sy_termination Reason(const Found& found, const std::optional<Measured>& at,
+                                      const Functions& functions, const sy_control& control) const;
+  void Report(Found found, Functions& functions, const Session& session, sy_result& result);
+  void ReportPoint(const Measured& at, const sy_control& control, sy_result& result) const;
+  void SeekProof(const Session& session, sy_result& result) const;
+  void SeekUnboundedness(const Session& session, sy_result& result) const;
 
   const sy_host& host_;
   Problem problem_;  // with all its bounds

@@ -1,4 +1,4 @@
-// nlp.hpp - one run of Ipopt on a linear or quadratic program.
+// nlp.hpp - a program as Ipopt asks for it.
 #pragma once
 
 #include <cstdint>
@@ -6,37 +6,46 @@
 
 #include "IpIpoptApplication.hpp"
 #include "IpTNLP.hpp"
+#include "functions.hpp"
 #include "linear/watch.hpp"
-#include "options.hpp"
+#include "shape.hpp"
 #include "switchyard/abi.h"
 
 namespace switchyard::ipopt {
 
 /// A point and its duals in the signs of switchyard/abi.h. Empty, or NaN, where unknown.
 struct Point {
-  std::vector<double> x, x_dual, row_dual;
+  std::vector<double> x, x_dual, row_dual, nlp_dual;
 
-  [[nodiscard]] bool Complete(std::int32_t num_vars, std::int32_t num_rows) const;
+  [[nodiscard]] bool Complete(const sy_problem& problem) const;
 };
 
 /// What a run ended with; the point's x_dual stays empty.
 struct Found {
   Ipopt::ApplicationReturnStatus status = Ipopt::Internal_Error;
+  bool began = false;  // the functions were defined where it started
   bool has_point = false;
   Point point;
   std::int64_t iterations = 0;
 };
 
-/// The program as Ipopt asks for it. Rows that say nothing of the variables stay behind: those
-/// without a finite side, and those whose variables are all fixed. With row duals y, Ipopt's
-/// multipliers are -y.
+/// How a program is given to Ipopt.
+struct Setting {
+  std::int64_t before = 0;  // iterations of earlier runs
+  double widening = 0;      // of all sides by Ipopt, relative
+  bool uses_hessian = true;
+};
+
+/// The linear rows and the quadratic objective are data and never asked of the functions. With row
+/// duals y, Ipopt's multipliers are -y.
 class Program : public Ipopt::TNLP {
  public:
   using Index = Ipopt::Index;
   using Number = Ipopt::Number;
 
-  /// Borrows all three; the problem has all its bounds and q. Iterations count from `before`.
-  Program(const sy_problem& problem, const Point& start, linear::Watch& watch, std::int64_t before);
+  /// Borrows all but the setting; the problem has all its bounds and q.
+  Program(const sy_problem& problem, Functions& functions, const Point& start, linear::Watch& watch,
+          const Setting& setting);
 
   bool get_nlp_info(Index& n, Index& m, Index& jacobian, Index& hessian,
                     IndexStyleEnum& style) override;
@@ -64,22 +73,20 @@ class Program : public Ipopt::TNLP {
   [[nodiscard]] const Found& found() const { return found_; }
 
  private:
+  /// Calls visit(k, lower, upper, i, is_row) for each of Ipopt's constraints k: the sides of row i,
+  /// or of c_i.
+  template <class Visit>
+  void ForEachConstraint(Visit&& visit) const;
+
   const sy_problem& p_;
+  Functions& functions_;
   const Point& start_;
   linear::Watch& watch_;
-  const std::int64_t before_;
-  std::vector<std::int32_t> kept_;   // the rows that Ipopt sees
-  std::vector<std::int32_t> place_;  // of each row among them; -1: not there
-  std::vector<Index> entry_row_, entry_col_;
-  std::vector<Number> entry_value_;
-  std::vector<Number> activity_;  // of all rows
-  bool loosens_equations_ = false;
+  const Setting setting_;
+  const Shape shape_;
+  std::vector<Number> activity_;     // of all rows
+  std::vector<Number> multipliers_;  // of all of c
   Found found_;
 };
-
-/// Runs Ipopt from `start`: a convex program without a line search first, which is fast and mostly
-/// succeeds, and again with one where that led nowhere. Throws Failure where Ipopt broke down.
-Found Run(const sy_problem& problem, const Point& start, const Options& options,
-          const sy_host& host, linear::Watch& watch, std::int64_t before = 0);
 
 }  // namespace switchyard::ipopt

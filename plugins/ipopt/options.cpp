@@ -18,6 +18,7 @@ constexpr const char* kStrategies[] = {"adaptive", "monotone", nullptr};
 constexpr const char* kOracles[] = {"quality-function", "probing", "loqo", nullptr};
 constexpr const char* kNoYes[] = {"no", "yes", nullptr};
 constexpr const char* kYesNo[] = {"yes", "no", nullptr};
+constexpr const char* kHessians[] = {"exact", "limited-memory", nullptr};
 constexpr const char* kScalings[] = {"gradient-based", "none", "equilibration-based", nullptr};
 
 constexpr double kLeast = 1e-300;  // for what must be positive
@@ -45,6 +46,9 @@ constexpr std::array kOptions = {
     RealOption("mu_init", 0.1, kLeast, kMost, "Barrier parameter to begin with"),
     WordOption("mehrotra_algorithm", kNoYes,
                "Predictor and corrector without a line search, for linear and convex programs"),
+    WordOption(
+        "hessian_approximation", kHessians,
+        "Second derivatives; limited-memory where it is not set and the functions have none"),
     RealOption("bound_push", 0.01, kLeast, kMost, "Least distance of the first point to a bound"),
     RealOption("bound_frac", 0.01, kLeast, 0.5, "The same, relative to the width of the bounds"),
     RealOption("bound_relax_factor", 1e-9, 0, kMost,
@@ -67,9 +71,8 @@ constexpr auto kOptionList = [] {
 }();
 
 // Ipopt would read a file that the host knows nothing of, or be given functions it has not.
-constexpr std::array<std::string_view, 4> kTheHosts = {
-    "option_file_name", "warm_start_same_structure", "hessian_approximation",
-    "jacobian_approximation"};
+constexpr std::array<std::string_view, 3> kTheHosts = {
+    "option_file_name", "warm_start_same_structure", "jacobian_approximation"};
 
 const sy_option* Listed(std::string_view name) {
   const auto row = std::find_if(kOptions.begin(), kOptions.end(),
@@ -152,6 +155,7 @@ void Options::Put(const std::string& name, const Held& held, Ipopt::OptionsList&
 
 bool Options::ChoosesItsWay() const {
   return chosen_.contains("mehrotra_algorithm") || chosen_.contains("max_iter") ||
+         chosen_.contains("hessian_approximation") ||
          std::any_of(chosen_.begin(), chosen_.end(),
                      [](const auto& own) { return own.first.starts_with("mu_"); });
 }
@@ -174,7 +178,27 @@ void Options::GiveWay(Way way, Ipopt::OptionsList& to) {
   }
 }
 
-void Options::Give(const sy_control& control, Way way, Ipopt::OptionsList& to) const {
+bool Options::UsesHessian(const Derivatives& derivatives) const {
+  const auto held = chosen_.find("hessian_approximation");
+  if (held == chosen_.end()) return derivatives.has_hessian;
+  if (held->second.text != "exact") return false;
+  if (derivatives.has_hessian) return true;
+  throw Failure(SY_E_ARGUMENT,
+                "option hessian_approximation is exact, which needs the Hessian of the functions; "
+                "they have none: set it to limited-memory");
+}
+
+void Options::GiveDerivatives(const Derivatives& derivatives, Ipopt::OptionsList& to) const {
+  const bool uses_hessian = UsesHessian(derivatives);
+  to.SetStringValue("hessian_approximation", uses_hessian ? "exact" : "limited-memory");
+  const auto word = [](bool constant) { return constant ? "yes" : "no"; };
+  to.SetStringValue("jac_c_constant", word(derivatives.constant_jacobian));
+  to.SetStringValue("jac_d_constant", word(derivatives.constant_jacobian));
+  to.SetStringValue("hessian_constant", word(derivatives.constant_hessian && uses_hessian));
+}
+
+void Options::Give(const sy_control& control, Way way, const Derivatives& derivatives,
+                   Ipopt::OptionsList& to) const {
   to.SetIntegerValue("acceptable_iter", 0);
   for (const char* name : {"constr_viol_tol", "dual_inf_tol", "compl_inf_tol", "bound_relax_factor",
                            "diverging_iterates_tol"}) {
@@ -196,11 +220,9 @@ void Options::Give(const sy_control& control, Way way, Ipopt::OptionsList& to) c
   to.SetIntegerValue("print_level", control.verbosity <= 0   ? 0
                                     : control.verbosity <= 2 ? Ipopt::J_ITERSUMMARY
                                                              : Ipopt::J_DETAILED);
-  // All functions are linear or quadratic: their derivatives are asked for once.
-  for (const char* constant : {"jac_c_constant", "jac_d_constant", "hessian_constant"}) {
-    to.SetStringValue(constant, "yes");
-  }
-  to.SetStringValue("sb", "yes");  // no banner
+  GiveDerivatives(derivatives, to);
+  to.SetStringValue("honor_original_bounds", "no");  // the plugin moves the last point into them
+  to.SetStringValue("sb", "yes");                    // no banner
   for (const auto& [name, held] : chosen_) Put(name, held, to);
 }
 

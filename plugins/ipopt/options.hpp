@@ -20,15 +20,27 @@ enum class Way {
   kWarm         // likewise, from a point with its multipliers, which stays where it is
 };
 
+/// What there is of a program's derivatives, and what of it may be asked for once.
+struct Derivatives {
+  bool constant_jacobian = true;
+  bool constant_hessian = true;
+  bool has_hessian = true;
+};
+
 class Options {
  public:
   /// Throws Failure: an unknown name, another type, a value out of range.
   void Set(std::string_view name, const sy_value& value);
 
   /// What one solve runs with: the user's choice, else the host's, else the default of the table.
-  void Give(const sy_control& control, Way way, Ipopt::OptionsList& to) const;
+  void Give(const sy_control& control, Way way, const Derivatives& derivatives,
+            Ipopt::OptionsList& to) const;
 
-  /// Has the user said how the barrier goes down, or how long?
+  /// Are second derivatives asked for? Else Ipopt approximates them. Throws Failure where the user
+  /// wants them and there are none.
+  [[nodiscard]] bool UsesHessian(const Derivatives& derivatives) const;
+
+  /// Has the user said how the barrier goes down, how long, or along which curvature?
   [[nodiscard]] bool ChoosesItsWay() const;
 
   [[nodiscard]] double Real(std::string_view name) const;
@@ -41,6 +53,7 @@ class Options {
   };
 
   static void GiveWay(Way way, Ipopt::OptionsList& to);
+  void GiveDerivatives(const Derivatives& derivatives, Ipopt::OptionsList& to) const;
   static void Put(const std::string& name, const Held& held, Ipopt::OptionsList& to);
 
   std::map<std::string, Held, std::less<>> chosen_;

@@ -17,6 +17,7 @@ constexpr double kNothing = 1e-7;
 ProblemData Elastic(const sy_problem& p) {
   ProblemData e(p);
   e.flags = SY_PROBLEM_CONVEX;
+  e.nlp = nullptr;
   std::fill(e.q.begin(), e.q.end(), 0.0);
   e.offset = 0;
   const auto violation = [&e](std::int32_t row, double sign) {
@@ -116,10 +117,10 @@ std::optional<linear::Duals> ContradictionOfConstants(const sy_problem& p, doubl
   return std::nullopt;
 }
 
-Feasibility SeekFarkas(const sy_problem& problem, const Options& options, const sy_host& host,
-                       linear::Watch& watch, std::int64_t before) {
+Feasibility SeekFarkas(const sy_problem& problem, const Session& session, std::int64_t before) {
   const Problem elastic(Elastic(problem));
-  const Found found = Run(elastic.view(), {}, options, host, watch, before);
+  Functions none(elastic.view(), session.watch);
+  const Found found = Run(elastic.view(), none, {}, session, before);
   Feasibility answer{std::nullopt, false, found.iterations};
   if (!Solved(found)) return answer;
   const double violation = Objective(elastic.view(), found.point.x.data());
@@ -128,10 +129,10 @@ Feasibility SeekFarkas(const sy_problem& problem, const Options& options, const 
   return answer;
 }
 
-Recession SeekRay(const sy_problem& problem, const Options& options, const sy_host& host,
-                  linear::Watch& watch, std::int64_t before) {
+Recession SeekRay(const sy_problem& problem, const Session& session, std::int64_t before) {
   const Problem directions(Directions(problem));
-  const Found found = Run(directions.view(), {}, options, host, watch, before);
+  Functions none(directions.view(), session.watch);
+  const Found found = Run(directions.view(), none, {}, session, before);
   Recession answer{std::nullopt, found.iterations};
   if (Solved(found) && Objective(directions.view(), found.point.x.data()) < -kNothing) {
     answer.ray = linear::FallingRay(problem, found.point.x);

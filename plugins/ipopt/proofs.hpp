@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "linear/duals.hpp"
-#include "nlp.hpp"
+#include "run.hpp"
 
 namespace switchyard::ipopt {
 
@@ -25,13 +25,11 @@ struct Recession {
 std::optional<linear::Duals> ContradictionOfConstants(const sy_problem& problem, double tolerance);
 
 /// Minimizes the sum of the violations of the rows within the bounds: where that is positive, the
-/// row duals are a Farkas certificate.
-Feasibility SeekFarkas(const sy_problem& problem, const Options& options, const sy_host& host,
-                       linear::Watch& watch, std::int64_t before);
+/// row duals are a Farkas certificate. Without the functions, which a contradiction does not need.
+Feasibility SeekFarkas(const sy_problem& problem, const Session& session, std::int64_t before);
 
 /// Minimizes q'd over the directions in which bounds and rows recede, Pd = 0 and |d_j| <= 1: where
-/// that is negative, d is a ray.
-Recession SeekRay(const sy_problem& problem, const Options& options, const sy_host& host,
-                  linear::Watch& watch, std::int64_t before);
+/// that is negative, d is a ray. The problem has no functions.
+Recession SeekRay(const sy_problem& problem, const Session& session, std::int64_t before);
 
 }  // namespace switchyard::ipopt

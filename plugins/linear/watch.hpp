@@ -53,20 +53,29 @@ class Watch {
   /// Tells the host how far it is: each incumbent, and of the rest as much as a reader can use.
   void Tell(std::int64_t iteration, double objective, double bound, std::int64_t nodes = 0,
             std::int64_t open_nodes = 0, const double* incumbent = nullptr) {
-    if (control_.progress == nullptr) return;
-    const std::lock_guard lock(telling_);
-    const double now = Seconds();
-    if (incumbent == nullptr && now < next_) return;
-    next_ = now + kPeriod;
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    const sy_progress progress = {sizeof(sy_progress), 0,     iteration, now,
-                                  objective,           bound, nan,       nan,
-                                  incumbent,           nodes, open_nodes};
-    if (control_.progress(control_.context, &progress) != 0) Stop(SY_CANCELLED);
+    Send({sizeof(sy_progress), 0, iteration, 0, objective, bound, nan, nan, incumbent, nodes,
+          open_nodes});
+  }
+
+  /// The same, of a solver that knows its residuals and no bound.
+  void TellResiduals(std::int64_t iteration, double objective, double primal, double dual) {
+    constexpr double none = -std::numeric_limits<double>::infinity();
+    Send({sizeof(sy_progress), 0, iteration, 0, objective, none, primal, dual, nullptr, 0, 0});
   }
 
  private:
   using Clock = std::chrono::steady_clock;
+
+  void Send(sy_progress progress) {
+    if (control_.progress == nullptr) return;
+    const std::lock_guard lock(telling_);
+    progress.seconds = Seconds();
+    if (progress.incumbent == nullptr && progress.seconds < next_) return;
+    next_ = progress.seconds + kPeriod;
+    if (control_.progress(control_.context, &progress) != 0) Stop(SY_CANCELLED);
+  }
+
   static constexpr double kPeriod = 0.02;  // seconds between two reports without an incumbent
 
   const sy_control control_;
