@@ -109,6 +109,13 @@ Perspective Norm(const NormCost& cost) {
 
 }  // namespace
 
+bool HasPerspective(const Cost& cost) {
+  const auto* quadratic = dynamic_cast<const QuadraticCost*>(&cost);
+  return (quadratic != nullptr && quadratic->is_convex()) ||
+         dynamic_cast<const LinearCost*>(&cost) != nullptr ||
+         dynamic_cast<const NormCost*>(&cost) != nullptr;
+}
+
 Perspective PerspectiveOf(const Cost& cost) {
   if (const auto* linear = dynamic_cast<const LinearCost*>(&cost)) return Linear(*linear);
   if (const auto* quadratic = dynamic_cast<const QuadraticCost*>(&cost)) {
@@ -121,7 +128,6 @@ Perspective PerspectiveOf(const Cost& cost) {
 }
 
 Perspective PerspectiveOf(const Constraint& constraint) {
-  RequireConvex(constraint);
   ScaledRows rows(constraint.num_vars());
   WriteScaled(constraint, rows);
   return {rows.Finish(), {}, {}};

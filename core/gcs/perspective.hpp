@@ -20,6 +20,9 @@ struct Perspective {
   Csc S;                     // rows x dim; no rows: no square
 };
 
+/// Is it linear, a norm, or quadratic and said to be convex?
+bool HasPerspective(const Cost& cost);
+
 /// Throws InvalidArgument, naming it, for a cost that is not convex or a constraint that has no
 /// perspective. A linear cost has no rows: it goes into the objective.
 Perspective PerspectiveOf(const Cost& cost);

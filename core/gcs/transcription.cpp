@@ -39,12 +39,12 @@ void GcsTranscription::WriteEdge(std::size_t arc) {
   squares_.clear();
   square_columns_.clear();
   const bool ends = graph_.head[arc] == graph_.target;
-  WriteTerms(edge.costs(), arc);
-  WriteTerms(edge.u().costs(), arc);
-  if (ends) WriteTerms(edge.v().costs(), arc);
-  WriteTerms(edge.constraints(), arc);
-  WriteTerms(edge.u().constraints(), arc);
-  if (ends) WriteTerms(edge.v().constraints(), arc);
+  WriteTerms(edge, edge.costs(), arc);
+  WriteTerms(edge.u(), edge.u().costs(), arc);
+  if (ends) WriteTerms(edge.v(), edge.v().costs(), arc);
+  WriteTerms(edge, edge.constraints(), arc);
+  WriteTerms(edge.u(), edge.u().constraints(), arc);
+  if (ends) WriteTerms(edge.v(), edge.v().constraints(), arc);
   WriteSquares(at.phi);
   CloseBlock();
 }
@@ -84,11 +84,19 @@ void GcsTranscription::WriteMembership(const ConvexSet& set, std::int32_t phi, s
 }
 
 /// Those that count in this transcription.
-template <class Terms>
-void GcsTranscription::WriteTerms(const Terms& terms, std::size_t arc) {
+template <class Owner, class Terms>
+void GcsTranscription::WriteTerms(const Owner& owner, const Terms& terms, std::size_t arc) {
+  const auto perspective_of = [&](const auto& evaluator) -> const Perspective& {
+    try {
+      return perspectives_.Of(evaluator);
+    } catch (const InvalidArgument& why) {
+      Refuse("at ", owner.name(), ": ", why.what(),
+             "; a term for the restriction alone may be any");
+    }
+  };
   for (const auto& term : terms) {
     if (!term.in.contains(as_)) continue;
-    WriteTerm(perspectives_.Of(term.binding.evaluator()), term.binding.variables(), arc);
+    WriteTerm(perspective_of(term.binding.evaluator()), term.binding.variables(), arc);
   }
 }
 

@@ -66,8 +66,8 @@ class GcsTranscription {
   void AddEdgeVariables(std::size_t arc);
   std::int32_t AddPoint(const ConvexSet& set);
   void WriteMembership(const ConvexSet& set, std::int32_t phi, std::int32_t first);
-  template <class Terms>
-  void WriteTerms(const Terms& terms, std::size_t arc);
+  template <class Owner, class Terms>
+  void WriteTerms(const Owner& owner, const Terms& terms, std::size_t arc);
   void WriteTerm(const Perspective& term, const VectorXDecisionVariable& variables,
                  std::size_t arc);
   void WriteCone(const ScaledSet& cone);

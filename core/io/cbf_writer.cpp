@@ -343,7 +343,7 @@ std::vector<std::string> CbfCannotHold(const MathematicalProgram& program) {
     return binding.evaluator()->Q().nonZeros() > 0;
   });
   if (count > 0) reasons.push_back(Text("costs that are quadratic: ", count));
-  for (std::string& words : NormCostsInWords(program)) reasons.push_back(std::move(words));
+  for (std::string& words : OtherTermsInWords(program)) reasons.push_back(std::move(words));
   return reasons;
 }
 

@@ -108,13 +108,19 @@ void AppendNumber(double value, std::string* text) {
   text->append(digits.data(), end);
 }
 
-std::vector<std::string> NormCostsInWords(const MathematicalProgram& program) {
-  std::map<std::string, int> kinds;
-  for (const auto& binding : program.norm_costs()) ++kinds[binding.evaluator()->Kind()];
+std::vector<std::string> OtherTermsInWords(const MathematicalProgram& program) {
   std::vector<std::string> words;
-  for (const auto& [kind, count] : kinds) {
-    words.push_back(Text("costs that are norms: ", count, " of kind ", kind));
-  }
+  const auto count = [&words](const char* what, const auto& bindings) {
+    std::map<std::string, int> kinds;
+    for (const auto& binding : bindings) ++kinds[binding.evaluator()->Kind()];
+    for (const auto& [kind, number] : kinds) {
+      words.push_back(Text(what, ": ", number, " of kind ", kind));
+    }
+  };
+  count("costs that are norms", program.norm_costs());
+  count("costs that are functions", program.generic_costs());
+  count("constraints that are quadratic", program.quadratic_constraints());
+  count("constraints that are functions", program.generic_constraints());
   return words;
 }
 

@@ -10,8 +10,8 @@
 namespace switchyard::io {
 
 /// minimize (or maximize) 1/2 x'Qx + c'x + constant subject to lower <= x <= upper and
-/// row_lower <= Ax <= row_upper; cones and norms aside. Of a binary variable the bounds are within
-/// [0, 1].
+/// row_lower <= Ax <= row_upper; cones, norms, functions and quadratic constraints aside. Of a
+/// binary variable the bounds are within [0, 1].
 struct FlatProgram {
   Eigen::VectorXd lower;
   Eigen::VectorXd upper;
@@ -35,7 +35,8 @@ std::vector<int> IndicesOf(const MathematicalProgram& program, const Binding<C>&
 /// The shortest text that reads back to the same number.
 void AppendNumber(double value, std::string* text);
 
-/// How often each kind of norm cost is there, in words: none where there is none.
-std::vector<std::string> NormCostsInWords(const MathematicalProgram& program);
+/// How often each kind of term is there that only program/1 holds, in words: costs that are norms
+/// or functions, constraints that are functions or quadratic forms. None where there is none.
+std::vector<std::string> OtherTermsInWords(const MathematicalProgram& program);
 
 }  // namespace switchyard::io

@@ -2,10 +2,12 @@
 #include <limits>
 #include <utility>
 
+#include "core/gcs/perspective.hpp"
 #include "core/io/bytes.hpp"
 #include "core/io/gcs_sets.hpp"
 #include "core/io/json.hpp"
 #include "core/sets/box.hpp"
+#include "core/sets/scaled_constraint.hpp"
 #include "switchyard/io/graph.hpp"
 
 namespace switchyard {
@@ -30,6 +32,8 @@ class GraphReader {
  private:
   static void CheckNames(JsonValue root);
   void ReadHead(const JsonFields& fields);
+  std::shared_ptr<Cost> ReadConvexCost(JsonValue entry);
+  std::shared_ptr<Constraint> ReadConvexRows(JsonValue entry);
   template <class T, class ReadOne>
   void ReadTable(const JsonTable& table, std::vector<T>* entries, ReadOne read);
   void ReadVertices(JsonValue list, const JsonTable& sets);
@@ -87,16 +91,8 @@ GraphProblem GraphReader::Read() {
   costs_used_.resize(static_cast<std::size_t>(functions_->size()));
   rows_used_.resize(static_cast<std::size_t>(constraints_->size()));
   sets_used_.resize(static_cast<std::size_t>(sets.size()));
-  ReadTable(*functions_, &costs_, [&](JsonValue entry) {
-    auto cost = ReadFunction(entry, &source_);
-    const auto* quadratic = dynamic_cast<const QuadraticCost*>(cost.get());
-    if (quadratic != nullptr && !quadratic->is_convex()) {
-      entry.Fail("a convex function", "a quadratic one that is not");
-    }
-    return cost;
-  });
-  ReadTable(*constraints_, &rows_,
-            [&](JsonValue entry) { return ReadConstraint(entry, &source_); });
+  ReadTable(*functions_, &costs_, [&](JsonValue entry) { return ReadConvexCost(entry); });
+  ReadTable(*constraints_, &rows_, [&](JsonValue entry) { return ReadConvexRows(entry); });
   const ConstraintOf constraint_of = [&](JsonValue name) {
     const auto found = static_cast<std::size_t>(constraints_->Find(name));
     rows_used_[found] = true;
@@ -117,6 +113,26 @@ GraphProblem GraphReader::Read() {
   NoteUnused("a constraint", *constraints_, rows_used_);
   NoteUnused("a set", sets, sets_used_);
   return std::move(problem_);
+}
+
+// Its perspective is that of a cone, which other functions have not.
+std::shared_ptr<Cost> GraphReader::ReadConvexCost(JsonValue entry) {
+  auto cost = ReadFunction(entry, &source_);
+  if (HasPerspective(*cost)) return cost;
+  if (FunctionOf(*cost) == nullptr) entry.Fail("a convex function", "a quadratic one that is not");
+  entry.Fail("a linear, convex quadratic or norm function", "one given by its operations");
+}
+
+std::shared_ptr<Constraint> GraphReader::ReadConvexRows(JsonValue entry) {
+  auto rows = ReadConstraint(entry, &source_);
+  if (dynamic_cast<const QuadraticConstraint*>(rows.get()) != nullptr) {
+    const auto n = static_cast<std::size_t>(rows->num_vars());
+    source_.dense.Take(n * n, entry);  // what its factor takes
+  }
+  if (HasPerspective(*rows)) return rows;
+  const bool function = FunctionOf(*rows) != nullptr;
+  entry.Fail("a linear, conic or convex quadratic constraint",
+             function ? "one given by its operations" : "a quadratic one that is not convex");
 }
 
 void GraphReader::ReadHead(const JsonFields& fields) {

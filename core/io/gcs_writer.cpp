@@ -5,8 +5,10 @@
 #include <utility>
 #include <variant>
 
+#include "core/gcs/perspective.hpp"
 #include "core/io/bytes.hpp"
 #include "core/io/gcs_sets.hpp"
+#include "core/sets/scaled_constraint.hpp"
 #include "switchyard/io/graph.hpp"
 
 namespace switchyard {
@@ -207,8 +209,11 @@ void AddReasons(const Owner& owner, const std::string& name, Reasons* reasons) {
       if (!(term.in == GraphOfConvexSets::TranscriptionSet())) {
         reasons->Add(name, "a term that is not for all transcriptions");
       }
-      if (!HasEntry(*term.binding.evaluator())) {
-        reasons->Add(name, Text("a ", term.binding.evaluator()->Kind(), " of a user's class"));
+      const auto& evaluator = *term.binding.evaluator();
+      if (!HasPerspective(evaluator)) {
+        reasons->Add(name, Text("a ", evaluator.Kind(), " that has no perspective"));
+      } else if (!WhyNoEntry(evaluator).empty()) {
+        reasons->Add(name, Text("a ", evaluator.Kind(), " of a user's class"));
       }
     }
   };

@@ -261,7 +261,7 @@ std::vector<std::string> MpsCannotHold(const MathematicalProgram& program) {
   for (const auto& [kind, count] : cones) {
     reasons.push_back(Text("cones: ", count, " of kind ", kind));
   }
-  for (std::string& words : NormCostsInWords(program)) reasons.push_back(std::move(words));
+  for (std::string& words : OtherTermsInWords(program)) reasons.push_back(std::move(words));
   const auto check = [&](const char* what, const Constraint& constraint) {
     for (int i = 0; i < constraint.num_constraints(); ++i) {
       for (const double side : {constraint.lower_bound()(i), constraint.upper_bound()(i)}) {

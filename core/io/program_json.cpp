@@ -221,8 +221,9 @@ template <class C>
 void AddForeign(const std::vector<Binding<C>>& bindings, std::vector<std::string>* reasons) {
   std::unordered_set<const EvaluatorBase*> seen;
   for (const Binding<C>& binding : bindings) {
-    if (HasEntry(*binding.evaluator()) || !seen.insert(binding.evaluator().get()).second) continue;
-    reasons->push_back(Text(binding.evaluator()->Name(), ": of a class that is not the library's"));
+    const std::string why = WhyNoEntry(*binding.evaluator());
+    if (why.empty() || !seen.insert(binding.evaluator().get()).second) continue;
+    reasons->push_back(Text(binding.evaluator()->Name(), " ", why));
   }
 }
 

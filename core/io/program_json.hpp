@@ -28,7 +28,8 @@ struct EntrySource {
   const JsonTable* matrices = nullptr;
   std::vector<std::optional<SparseMatrix>> read;  // of them
   JsonRoom numbers;                               // columns and entries of sparse matrices
-  JsonRoom dense;  // entries of the matrices behind a linear matrix inequality
+  JsonRoom dense;       // entries of the matrices behind a linear matrix inequality
+  JsonRoom operations;  // of functions, counted for each output that needs them
 };
 
 /// Matrices that entries name, each once.
@@ -61,8 +62,16 @@ std::shared_ptr<Constraint> ReadConstraint(JsonValue entry, EntrySource* source)
 /// The whole entry. Throws InvalidArgument where no kind of the tables fits.
 void AppendEntry(const Cost& function, EntrySink* sink);
 void AppendEntry(const Constraint& constraint, EntrySink* sink);
-/// Is there a kind that fits?
-bool HasEntry(const Cost& function);
-bool HasEntry(const Constraint& constraint);
+/// Why no kind fits, as what is said of the term: "is of a class ..."; empty where one does.
+std::string WhyNoEntry(const Cost& function);
+std::string WhyNoEntry(const Constraint& constraint);
+
+/// The function that a term is; null where it is none.
+const Function* FunctionOf(const EvaluatorBase& term);
+// Rows of the tables.
+std::shared_ptr<Cost> ReadFunctionCost(JsonValue entry, EntrySource* source);
+void WriteFunctionCost(const Cost& cost, EntrySink* sink);
+std::shared_ptr<Constraint> ReadFunctionRows(JsonValue entry, EntrySource* source);
+void WriteFunctionRows(const Constraint& constraint, EntrySink* sink);
 
 }  // namespace switchyard::io

@@ -16,6 +16,8 @@ constexpr std::size_t kFreeNumbers = std::size_t{1} << 20;
 constexpr std::size_t kNumbersPerByte = 16;
 constexpr std::size_t kFreeDense = std::size_t{1} << 20;
 constexpr std::size_t kDensePerByte = 1024;
+constexpr std::size_t kFreeOperations = std::size_t{1} << 26;
+constexpr std::size_t kOperationsPerByte = 256;
 
 std::size_t Squared(int n) { return static_cast<std::size_t>(n) * static_cast<std::size_t>(n); }
 
@@ -110,6 +112,11 @@ bool Is(const Base& evaluator) {
   return typeid(evaluator) == typeid(C);
 }
 
+template <class C, class Base>
+bool IsTape(const Base& evaluator) {
+  return Is<C>(evaluator) && TapeOf(*FunctionOf(evaluator)) != nullptr;
+}
+
 template <class C>
 constexpr EvaluatorFacts<Cost> NormRow(std::string_view type) {
   return {type, Is<C, Cost>, ReadNorm<C>, WriteNorm};
@@ -123,6 +130,8 @@ constexpr std::array kFunctions = {
     NormRow<L2NormCost>("l2_norm"),
     NormRow<LInfNormCost>("linf_norm"),
     NormRow<PerspectiveQuadraticCost>("perspective_quadratic"),
+    EvaluatorFacts<Cost>{"function", IsTape<FunctionCost, Cost>, ReadFunctionCost,
+                         WriteFunctionCost},
 };
 
 // ---- Constraints ----
@@ -233,6 +242,48 @@ void WriteMatrixInequality(const Constraint& constraint, EntrySink* sink) {
   WriteCone(constraint, sink);
 }
 
+struct HessianName {
+  QuadraticConstraint::HessianType type;
+  std::string_view name;
+};
+constexpr std::array kHessians = {
+    HessianName{QuadraticConstraint::HessianType::kPositiveSemidefinite, "positive_semidefinite"},
+    HessianName{QuadraticConstraint::HessianType::kNegativeSemidefinite, "negative_semidefinite"},
+    HessianName{QuadraticConstraint::HessianType::kIndefinite, "indefinite"},
+};
+
+std::optional<QuadraticConstraint::HessianType> ReadHessian(std::optional<JsonValue> name) {
+  if (!name) return std::nullopt;
+  for (const HessianName& row : kHessians) {
+    if (name->String() == row.name) return row.type;
+  }
+  name->Fail("positive_semidefinite, negative_semidefinite or indefinite");
+}
+
+std::shared_ptr<Constraint> ReadForm(JsonValue entry, EntrySource* source) {
+  const JsonFields fields(entry,
+                          {"type", "description", "row_names", "Q", "b", "lb", "ub", "hessian"});
+  const SparseMatrix Q = source->Matrix(fields["Q"]);
+  if (Q.rows() != Q.cols()) {
+    fields["Q"].Fail("a square matrix", Text("one of ", Q.rows(), " x ", Q.cols()));
+  }
+  CheckEntries(fields["b"], Q.rows(), "row of Q");
+  if (fields["lb"].Size() != 1) fields["lb"].Fail("a list of 1, the side of the form");
+  const JsonSides sides = ReadSides(fields["lb"], fields["ub"]);
+  return std::make_shared<QuadraticConstraint>(Q, ReadVector(fields["b"]), sides.lower(0),
+                                               sides.upper(0), ReadHessian(fields.Find("hessian")));
+}
+
+void WriteForm(const Constraint& constraint, EntrySink* sink) {
+  const auto& form = static_cast<const QuadraticConstraint&>(constraint);
+  sink->Append("Q", form.Q());
+  AppendMember("b", form.b(), sink);
+  WriteBox(constraint, sink);
+  for (const HessianName& row : kHessians) {
+    if (row.type == form.hessian_type()) *sink->text += Text(", \"hessian\": \"", row.name, "\"");
+  }
+}
+
 template <class C>
 constexpr EvaluatorFacts<Constraint> Row(std::string_view type,
                                          std::shared_ptr<Constraint> (*read)(JsonValue,
@@ -256,6 +307,9 @@ constexpr std::array kConstraints = {
                                         WriteSemidefinite),
     Row<LinearMatrixInequalityConstraint>("linear_matrix_inequality", ReadMatrixInequality,
                                           WriteMatrixInequality),
+    Row<QuadraticConstraint>("quadratic", ReadForm, WriteForm),
+    EvaluatorFacts<Constraint>{"function", IsTape<FunctionConstraint, Constraint>, ReadFunctionRows,
+                               WriteFunctionRows},
 };
 
 // ---- Both ----
@@ -263,6 +317,15 @@ constexpr std::array kConstraints = {
 template <class Table, class Base>
 auto FactsFor(const Table& table, const Base& evaluator) {
   return std::find_if(table.begin(), table.end(), [&](const auto& f) { return f.is(evaluator); });
+}
+
+template <class Table, class Base>
+std::string WhyNone(const Table& table, const Base& evaluator) {
+  if (FactsFor(table, evaluator) != table.end()) return "";
+  return FunctionOf(evaluator) != nullptr
+             ? "is a function of the user's own program; a file holds functions given by "
+               "expressions or traced"
+             : "is of a class that is not the library's";
 }
 
 template <class Table>
@@ -303,7 +366,9 @@ void AppendTyped(const Table& table, const Base& evaluator, EntrySink* sink) {
 }  // namespace
 
 EntrySource::EntrySource(const FileText& text)
-    : numbers(text, kFreeNumbers, kNumbersPerByte), dense(text, kFreeDense, kDensePerByte) {}
+    : numbers(text, kFreeNumbers, kNumbersPerByte),
+      dense(text, kFreeDense, kDensePerByte),
+      operations(text, kFreeOperations, kOperationsPerByte) {}
 
 SparseMatrix EntrySource::Matrix(JsonValue value) {
   if (matrices == nullptr || value.kind() != JsonKind::kString) {
@@ -360,10 +425,8 @@ void AppendEntry(const Constraint& constraint, EntrySink* sink) {
   *sink->text += constraint.row_names().empty() ? "}" : "]}";
 }
 
-bool HasEntry(const Cost& function) { return FactsFor(kFunctions, function) != kFunctions.end(); }
+std::string WhyNoEntry(const Cost& function) { return WhyNone(kFunctions, function); }
 
-bool HasEntry(const Constraint& constraint) {
-  return FactsFor(kConstraints, constraint) != kConstraints.end();
-}
+std::string WhyNoEntry(const Constraint& constraint) { return WhyNone(kConstraints, constraint); }
 
 }  // namespace switchyard::io

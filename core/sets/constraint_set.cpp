@@ -13,7 +13,7 @@ ConstraintSet::ConstraintSet(int dimension, Constraints constraints)
     Require(constraint != nullptr, "a set of constraints needs constraints, got a null pointer");
     Require(constraint->num_vars() == dimension, "a set in R^", dimension, " needs constraints on ",
             dimension, " variables, got ", constraint->Name(), " on ", constraint->num_vars());
-    RequireConvex(*constraint);
+    RequirePerspective(*constraint);
   }
 }
 

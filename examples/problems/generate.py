@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""Writes the three problems of this folder: transport.mps, depots.mps and ball.cbf.
+"""Writes the problems of this folder: transport.mps, depots.mps, ball.cbf and hs71.json.
 
 The numbers are small integers made by formulas, so the files are the same on every machine.
 """
 
+import json
 from pathlib import Path
 
 FOLDER = Path(__file__).resolve().parent
@@ -95,7 +96,45 @@ def ball():
     (FOLDER / "ball.cbf").write_text("\n".join(lines) + "\n")
 
 
+def by_entries(value):
+    """A value of the top level as JSON, each entry of a table or list on a line of its own."""
+    if isinstance(value, dict):
+        entries = [f"{json.dumps(name)}: {json.dumps(entry)}" for name, entry in value.items()]
+        return "{\n    " + ",\n    ".join(entries) + "\n  }"
+    if isinstance(value, list):
+        return "[\n    " + ",\n    ".join(map(json.dumps, value)) + "\n  ]"
+    return json.dumps(value)
+
+
+def hs71():
+    """A nonlinear program that is not convex: problem 71 of W. Hock and K. Schittkowski, Test Examples
+    for Nonlinear Programming Codes (1981). The least cost is 17.0140173, at (1, 4.743, 3.8211, 1.3794).
+    """
+    square = {"rows": 4, "cols": 4, "entries": [[i, i, 2] for i in range(4)]}
+    everything = list(range(4))
+    program = {
+        "format": "program/1",
+        "name": "problem 71 of Hock and Schittkowski (1981)",
+        "sense": "minimize",
+        "variables": [{"name": f"x{i + 1}", "guess": guess}
+                      for i, guess in enumerate((1, 5, 5, 1))],
+        "functions": {"cost": {"type": "function", "arguments": 4,
+                               "expressions": ["x[0]*x[3]*(x[0] + x[1] + x[2]) + x[2]"]}},
+        "constraints": {
+            "box": {"type": "bounding_box", "lb": [1] * 4, "ub": [5] * 4},
+            "product": {"type": "function", "arguments": 4, "row_names": ["product"],
+                        "expressions": ["x[0]*x[1]*x[2]*x[3]"], "lb": [25], "ub": ["inf"]},
+            "sphere": {"type": "quadratic", "row_names": ["sphere"], "Q": square, "b": [0] * 4,
+                       "lb": [40], "ub": [40]}},
+        "costs": [{"function": "cost", "variables": everything}],
+        "subject_to": [{"constraint": name, "variables": everything}
+                       for name in ("box", "product", "sphere")]}
+    lines = [f"  {json.dumps(name)}: {by_entries(value)}" for name, value in program.items()]
+    (FOLDER / "hs71.json").write_text("{\n" + ",\n".join(lines) + "\n}\n")
+
+
 if __name__ == "__main__":
     transport()
     depots()
     ball()
+    hs71()

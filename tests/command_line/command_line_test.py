@@ -237,6 +237,122 @@ class Answers(CommandLine):
         self.assertGreater(log.stat().st_size, 0)
 
 
+class Functions(CommandLine):
+    """program/1 with functions. What needs no backend runs without one."""
+
+    NONLINEAR = ("ipopt", "nlopt")
+    HS71 = 17.0140172892
+
+    def written(self, cost, guess=None, convex=False):
+        """A program of one variable x, with this expression as its cost."""
+        program = {"format": "program/1",
+                   "variables": [{"name": "x"} | ({} if guess is None else {"guess": guess})],
+                   "functions": {"f": {"type": "function", "description": "cost", "arguments": 1,
+                                       "expressions": [cost], "convex": convex}},
+                   "constraints": {"b": {"type": "bounding_box", "lb": [-3], "ub": [5]}},
+                   "costs": [{"function": "f", "variables": [0]}],
+                   "subject_to": [{"constraint": "b", "variables": [0]}]}
+        return self.file("cost.json", json.dumps(program))
+
+    def test_the_example_has_its_optimum(self):
+        backend = self.any_of(*self.NONLINEAR)
+        for name in self.NONLINEAR:
+            if name not in self.backends:
+                continue
+            with self.subTest(backend=name):
+                result = self.solve(self.example("hs71.json"), "--solver", name)
+                self.assertEqual(result["termination"], "locally_optimal", result)
+                self.assertLess(abs(result["objective"] - self.HS71), 1e-5 * self.HS71)
+                self.assertLess(result["violation"]["nonlinear"], 1e-4)
+                self.assertEqual(set(result["evaluations"]), {"objective", "gradient", "constraints",
+                                                              "jacobian", "hessian"})
+                self.assertGreater(result["evaluations"]["objective"], 0)
+                self.assertNotIn("starts", result)
+        path = self.folder / "solution.json"
+        done = self.expect(self.run_program("solve", self.example("hs71.json"), "--solver", backend,
+                                            "--solution", path), ANSWERED)
+        self.assertRegex(done.stdout, r"\nviolation .*, functions \S+, integrality 0\n")
+        rows = json.loads(path.read_text())["rows"]
+        self.assertAlmostEqual(rows["product"], 0.55229366, places=3)
+        self.assertAlmostEqual(rows["sphere"], -0.16146857, places=3)
+
+    def test_a_program_without_functions_has_no_evaluations(self):
+        self.any_of("highs", "clp", "clarabel")
+        result = self.solve(self.example("transport.mps"))
+        self.assertFalse({"evaluations", "starts"} & set(result))
+
+    def test_a_convex_one_is_optimal(self):
+        backend = self.any_of(*self.NONLINEAR)
+        for convex, words in ((True, "optimal"), (False, "locally_optimal")):
+            path = self.written("exp(x[0]) - 2*x[0]", 0, convex)
+            result = self.solve(path, "--solver", backend)
+            self.assertEqual(result["termination"], words, result)
+            self.assertLess(abs(result["objective"] - (2 - 2 * math.log(2))), 1e-5)
+
+    def test_many_starts_find_the_better_of_two_valleys(self):
+        backend = self.any_of(*self.NONLINEAR)
+        # Valleys at x = 2.03 and x = -1.94; the guess leads to the shallow one.
+        path = self.written("(x[0]^2 - 4)^2 - 2*x[0]", -2)
+        alone = self.solve(path, "--solver", backend)
+        self.assertGreater(alone["objective"], 3)
+        many = ("--solver", backend, "--starts", "12", "--seed", "1")
+        result = self.solve(path, *many)
+        self.assertLess(result["objective"], -4)
+        self.assertEqual(result["starts"]["tried"], 12)
+        self.assertEqual(result["starts"]["distinct"], 2)
+        again = self.solve(path, *many, "--threads", "1")
+        self.assertEqual(again["objective"], result["objective"])
+        self.assertEqual(again["starts"], result["starts"])
+        said = self.expect(self.run_program("solve", path, *many), ANSWERED).stdout
+        self.assertRegex(said, r"\nstarts     \d+ of 12 gave an answer, 2 of these distinct\n")
+
+    def test_many_starts_of_a_backend_that_is_not_there(self):
+        done = self.run_program("solve", self.example("hs71.json"), "--starts", "2", "--solver",
+                                "nobody")
+        self.expect(done, NOT_ANSWERED)
+        self.assertIn("no_backend", done.stderr)
+
+    def test_derivatives_that_agree(self):
+        check = ("solve", self.example("hs71.json"), "--check-derivatives")
+        done = self.expect(self.run_program(*check), ANSWERED)
+        self.assertRegex(done.stdout, r"^the derivatives of 3 terms agree with differences to \S+\n$")
+        done = self.expect(self.run_program(*check, "--quiet"), ANSWERED)
+        self.assertEqual(done.stdout + done.stderr, "")
+        done = self.run_program("solve", self.example("ball.cbf"), "--check-derivatives")
+        self.assertEqual(self.expect(done, ANSWERED).stdout, "the program has no functions\n")
+
+    def test_derivatives_that_do_not(self):
+        # Without a guess x is in the middle of [-3, 5], at 1.
+        done = self.run_program("solve", self.written("abs(x[0] - 1)"), "--check-derivatives")
+        self.expect(done, NOT_ANSWERED)
+        self.assertRegex(done.stdout, r"(?m)^second derivative of cost by x and x: the pattern has no "
+                                      r"place for it, differences say \S+$")
+        done = self.run_program("solve", self.written("max(x[0], 1)"), "--check-derivatives")
+        self.expect(done, NOT_ANSWERED)
+        self.assertRegex(done.stdout, r"(?m)^derivative of cost by x is 1, differences say 0\.5$")
+        done = self.run_program("solve", self.written("log(x[0])", -1), "--check-derivatives")
+        self.expect(done, NOT_ANSWERED)
+        self.assertIn("cost is not defined at the point", done.stdout)
+
+    def test_a_wrong_expression_is_said_with_its_column(self):
+        path = self.written("exp(x[0]) + sine(x[0])")
+        done = self.expect(self.run_program("solve", path), BAD_INPUT)
+        self.assertIn(f"{path}: /functions/f/expressions/0: needs ", done.stderr)
+        self.assertIn(' at column 13, got "sine" (the nearest is "sin")', done.stderr)
+
+    def test_convert_keeps_functions_or_says_what_holds_none(self):
+        once, twice = self.folder / "once.json", self.folder / "twice.json.gz"
+        self.expect(self.run_program("convert", self.example("hs71.json"), once), ANSWERED)
+        self.expect(self.run_program("convert", once, twice), ANSWERED)
+        self.assertEqual(gzip.decompress(twice.read_bytes()), once.read_bytes())
+        for ending in ("mps", "cbf"):
+            target = self.folder / f"target.{ending}"
+            done = self.expect(self.run_program("convert", once, target), BAD_INPUT)
+            self.assertIn(f"{ending} cannot hold this program; costs that are functions: 1 of kind "
+                          "function cost; constraints that are quadratic: 1", done.stderr)
+            self.assertFalse(target.exists())
+
+
 class Streams(CommandLine):
     def test_standard_input_and_gzip(self):
         self.any_of("highs", "clp", "clarabel")
@@ -320,6 +436,8 @@ class Mistakes(CommandLine):
         for command in ((), ("slove",), ("solve",), ("solve", good, "--no-such-option"),
                         ("solve", good, "--time-limit", "-1"), ("solve", good, "--gap", "x"),
                         ("solve", good, "--threads", "0"), ("plugins",), ("plugins", "describe"),
+                        ("solve", good, "--starts", "0"),
+                        ("solve", good, "--starts", "2", "--check-derivatives"),
                         ("convert", good), ("solve", good, "--option", "novalue")):
             with self.subTest(command=command):
                 done = self.expect(self.run_program(*command), BAD_INPUT)

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "switchyard/cones.hpp"
 #include "switchyard/io/graph.hpp"
 #include "switchyard/io/write.hpp"
 #include "switchyard/sets/hyperrectangle.hpp"
@@ -152,6 +153,90 @@ TEST(Gcs, SaysWhatItCannotHold) {
                                       "slack variables (1 time, first: edge way)"}));
 }
 
+TEST(Gcs, HoldsNoFunctions) {
+  GraphProblem problem;
+  problem.graph = std::make_unique<GraphOfConvexSets>();
+  problem.source = problem.graph->AddVertex(Point(Eigen::Vector2d(4, 4)), "start");
+  problem.target = problem.graph->AddVertex(Point(Eigen::Vector2d(5, 4)), "end");
+  Edge* const edge = problem.graph->AddEdge(problem.source, problem.target, "way");
+  const auto saddle = std::make_shared<QuadraticConstraint>(
+      Eigen::Vector2d(1, -1).asDiagonal().toDenseMatrix(), Eigen::Vector2d::Zero(), 0, 1);
+  Tape tape(2);
+  tape.AddOutput(tape.Apply(Op::kExp, 0));
+  edge->AddCost({std::make_shared<FunctionCost>(CompileTape(tape), true), edge->xu()});
+  edge->AddConstraint({saddle, edge->xv()});
+  EXPECT_EQ(CannotHold(problem),
+            (std::vector<std::string>{
+                "a function cost that has no perspective (1 time, first: edge way)",
+                "a quadratic constraint that has no perspective (1 time, first: edge way)"}));
+  try {
+    (void)problem.graph->SolveShortestPath(*problem.source, *problem.target, {});
+    ADD_FAILURE();
+  } catch (const InvalidArgument& error) {
+    EXPECT_STREQ(error.what(),
+                 "at way: function cost has no perspective: a relaxation and a mixed-integer "
+                 "program take linear, convex quadratic and norm costs; a term for the restriction "
+                 "alone may be any");
+  }
+}
+
+// The largest violation of the cone at (t, x).
+double ViolationOfScaled(const ScaledSet& set, double t, const Eigen::Vector2d& x) {
+  const Eigen::Vector3d at(t, x[0], x[1]);
+  std::vector<double> rows(set.lower.size(), 0.0);
+  std::vector<double> s(static_cast<std::size_t>(set.F.rows), 0.0);
+  MultiplyAdd(set.A.View(), 1, at.data(), rows.data());
+  MultiplyAdd(set.F.View(), 1, at.data(), s.data());
+  double worst = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    worst = std::max({worst, set.lower[i] - rows[i], rows[i] - set.upper[i]});
+  }
+  for (const sy_cone& cone : set.cones) {
+    worst = std::max(worst, FactsOf(cone.kind).violation(s.data(), cone.dim, cone.parameter));
+  }
+  return worst;
+}
+
+// x in t {1/2 x'Qx + b'x <= 3} where t (3 t - b'x) >= 1/2 x'Qx: of any rank, and as -3 <= -(...).
+TEST(Gcs, AQuadraticConstraintIsTheSetWhereItHoldsScaledToo) {
+  using Entries = std::vector<std::pair<const char*, double>>;
+  for (const Entries& Q : {Entries{{"0, 0, ", 2}, {"0, 1, ", 1}, {"1, 0, ", 1}, {"1, 1, ", 3}},
+                           Entries{{"1, 1, ", 4}}, Entries{}}) {
+    for (const double sign : {1.0, -1.0}) {
+      std::string entries;
+      for (const auto& [place, value] : Q) {
+        entries += Text(entries.empty() ? "[" : ", [", place, sign * value, "]");
+      }
+      const std::string one = Text(
+          "\"constraints\": {\"c\": {\"type\": \"quadratic\", \"Q\": {\"rows\": 2, \"cols\": 2, "
+          "\"entries\": [",
+          entries, "]}, \"b\": [", sign, ", ", -2 * sign, "], ",
+          sign > 0 ? "\"lb\": [\"-inf\"], \"ub\": [3]" : "\"lb\": [-3], \"ub\": [\"inf\"]",
+          "}}, \"sets\": {\"s\": {\"type\": \"intersection_of_constraints\", \"dimension\": 2, "
+          "\"constraints\": [\"c\"]}}");
+      const std::string two =
+          "{\"name\": \"a\", \"set\": \"s\"}, {\"name\": \"b\", \"set\": \"s\"}";
+      const GraphProblem problem = ReadGraphText(Graph(one, two, ""), "a.json");
+      EXPECT_EQ(GraphText(ReadGraphText(GraphText(problem), "b.json")), GraphText(problem));
+      const ScaledSet& scaled = problem.source->set().scaled();
+      const auto form = [&](double x, double y) {
+        double sum = x - 2 * y;
+        for (const auto& [place, value] : Q) {
+          sum += 0.5 * value * (place[0] == '0' ? x : y) * (place[3] == '0' ? x : y);
+        }
+        return sum;
+      };
+      for (double x = -3; x <= 3; x += 0.37) {
+        for (double y = -3; y <= 3; y += 0.41) {
+          EXPECT_EQ(problem.source->set().PointInSet(Eigen::Vector2d(x, y), 1e-9), form(x, y) <= 3);
+          const bool inside = form(x / 0.6, y / 0.6) <= 3;
+          EXPECT_EQ(ViolationOfScaled(scaled, 0.6, Eigen::Vector2d(x, y)) <= 1e-9, inside);
+        }
+      }
+    }
+  }
+}
+
 std::string SaidOf(const std::string& text) {
   try {
     ReadGraphText(text, "a.json");
@@ -201,6 +286,25 @@ TEST(Gcs, SaysWhatIsWrongAndWhere) {
                  "{\"type\": \"quadratic\", \"Q\": {\"rows\": 1, \"cols\": 1, \"entries\": [[0, 0, "
                  "-1]]}, \"b\": [0], \"c\": 0}"),
             "a.json: /functions/g: needs a convex function, got a quadratic one that is not");
+  EXPECT_EQ(
+      said("{\"type\": \"linear\", \"a\": [1], \"b\": 0}",
+           "{\"type\": \"function\", \"arguments\": 1, \"convex\": true, "
+           "\"expressions\": [\"exp(x[0])\"]}"),
+      "a.json: /functions/g: needs a linear, convex quadratic or norm function, got one given "
+      "by its operations");
+  const std::string linear_rows =
+      "{\"type\": \"linear\", \"A\": \"M\", \"lb\": [\"-inf\"], \"ub\": [1]}";
+  EXPECT_EQ(said(linear_rows,
+                 "{\"type\": \"function\", \"arguments\": 1, \"expressions\": [\"exp(x[0])\"], "
+                 "\"lb\": [0], \"ub\": [1]}"),
+            "a.json: /constraints/c: needs a linear, conic or convex quadratic constraint, got one "
+            "given by its operations");
+  EXPECT_EQ(said(linear_rows,
+                 "{\"type\": \"quadratic\", \"hessian\": \"positive_semidefinite\", \"Q\": "
+                 "{\"rows\": 1, \"cols\": 1, \"entries\": [[0, 0, -1]]}, \"b\": [0], \"lb\": "
+                 "[\"-inf\"], \"ub\": [1]}"),
+            "a.json: /constraints/c: needs a linear, conic or convex quadratic constraint, got a "
+            "quadratic one that is not convex");
   EXPECT_EQ(said("{\"type\": \"point\", \"x\": [5]}",
                  "{\"type\": \"intersection_of_constraints\", \"dimension\": 2, \"constraints\": "
                  "[\"c\"]}"),

@@ -134,7 +134,7 @@ std::shared_ptr<Constraint> RandomConstraint(Random* random, int n) {
   const int rows = random->Below(4);
   Eigen::VectorXd lower;
   Eigen::VectorXd upper;
-  switch (random->Below(5)) {
+  switch (random->Below(6)) {
     case 0:
       random->Sides(n, &lower, &upper);
       return std::make_shared<BoundingBoxConstraint>(lower, upper);
@@ -146,6 +146,11 @@ std::shared_ptr<Constraint> RandomConstraint(Random* random, int n) {
                                                         random->Vector(rows));
     case 3:
       return RandomCone(random, n);
+    case 4:
+      random->Sides(1, &lower, &upper);
+      return std::make_shared<QuadraticConstraint>(
+          random->Matrix(n, n), random->Vector(n), lower(0), upper(0),
+          static_cast<QuadraticConstraint::HessianType>(random->Below(3)));
     default:
       return RandomMatrixCone(random, n);
   }
@@ -243,7 +248,8 @@ TEST(ProgramJson, SaysWhatIsWrongAndWhere) {
   EXPECT_EQ(
       SaidOf(function("{\"type\": \"l3_norm\"}")),
       "a.json: /functions/f/type: needs a type of function (linear, quadratic, squared_l2_norm, "
-      "l1_norm, l2_norm, linf_norm, perspective_quadratic), got \"l3_norm\" (the nearest is "
+      "l1_norm, l2_norm, linf_norm, perspective_quadratic, function), got \"l3_norm\" (the nearest "
+      "is "
       "\"l1_norm\")");
   const std::string linear = "{\"type\": \"linear\", \"a\": [1, 2], \"b\": 0}";
   EXPECT_EQ(SaidOf(function("{\"type\": \"linear\", \"a\": [1, \"inf\"], \"b\": 0}")),

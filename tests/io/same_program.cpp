@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/io/flat.hpp"
+#include "core/io/program_json.hpp"
 
 namespace switchyard::testing {
 namespace {
@@ -66,6 +67,52 @@ std::string DifferenceOfCones(const MathematicalProgram& a, const MathematicalPr
   return "";
 }
 
+bool SameSides(const Constraint& a, const Constraint& b) {
+  return a.lower_bound() == b.lower_bound() && a.upper_bound() == b.upper_bound();
+}
+bool SameSides(const Cost& /*a*/, const Cost& /*b*/) { return true; }
+
+// Of functions that are tapes.
+template <class C>
+std::string DifferenceOfFunctions(const MathematicalProgram& a, const MathematicalProgram& b,
+                                  const std::vector<Binding<C>>& some,
+                                  const std::vector<Binding<C>>& others) {
+  if (some.size() != others.size()) return "the number of functions";
+  for (std::size_t k = 0; k < some.size(); ++k) {
+    const C& x = *some[k].evaluator();
+    const C& y = *others[k].evaluator();
+    const Tape* const tape = TapeOf(*io::FunctionOf(x));
+    const Tape* const other = TapeOf(*io::FunctionOf(y));
+    if (tape == nullptr || other == nullptr || !(*tape == *other)) {
+      return Text("the operations of function ", k);
+    }
+    if (x.is_convex() != y.is_convex()) return Text("the convexity of function ", k);
+    if (!SameSides(x, y)) return Text("the sides of function ", k);
+    if (io::IndicesOf(a, some[k]) != io::IndicesOf(b, others[k])) {
+      return Text("the variables of function ", k);
+    }
+  }
+  return "";
+}
+
+std::string DifferenceOfForms(const MathematicalProgram& a, const MathematicalProgram& b) {
+  const auto& forms = a.quadratic_constraints();
+  const auto& others = b.quadratic_constraints();
+  if (forms.size() != others.size()) return "the number of quadratic constraints";
+  for (std::size_t k = 0; k < forms.size(); ++k) {
+    const QuadraticConstraint& x = *forms[k].evaluator();
+    const QuadraticConstraint& y = *others[k].evaluator();
+    if (!Same(x.Q(), y.Q()) || x.b() != y.b() || !SameSides(x, y) ||
+        x.hessian_type() != y.hessian_type()) {
+      return Text("quadratic constraint ", k);
+    }
+    if (io::IndicesOf(a, forms[k]) != io::IndicesOf(b, others[k])) {
+      return Text("the variables of quadratic constraint ", k);
+    }
+  }
+  return "";
+}
+
 }  // namespace
 
 std::string Difference(const MathematicalProgram& a, const MathematicalProgram& b) {
@@ -89,7 +136,15 @@ std::string Difference(const MathematicalProgram& a, const MathematicalProgram& 
   if (!Same(x.A, y.A)) return "A";
   if (x.row_lower != y.row_lower) return "the lower sides of rows";
   if (x.row_upper != y.row_upper) return "the upper sides of rows";
-  return DifferenceOfCones(a, b);
+  std::string difference = DifferenceOfCones(a, b);
+  if (difference.empty()) difference = DifferenceOfForms(a, b);
+  if (difference.empty()) {
+    difference = DifferenceOfFunctions(a, b, a.generic_costs(), b.generic_costs());
+  }
+  if (difference.empty()) {
+    difference = DifferenceOfFunctions(a, b, a.generic_constraints(), b.generic_constraints());
+  }
+  return difference;
 }
 
 std::string DifferenceOfNames(const MathematicalProgram& a, const MathematicalProgram& b) {

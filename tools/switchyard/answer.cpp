@@ -19,6 +19,10 @@ std::string Advice(Termination termination) {
       return "try a larger --time-limit";
     case Termination::kNumericalTrouble:
       return "try another --solver; --explain lists those that could serve";
+    case Termination::kLocallyInfeasible:
+      return "try other points: --starts N";
+    case Termination::kEvaluationFailed:
+      return "--check-derivatives names what is not defined at the guess";
     case Termination::kInfeasibleOrUnbounded:
       return "try another --solver to learn which";
     case Termination::kNoPath:
@@ -33,6 +37,11 @@ std::string Advice(Termination termination) {
 
 double Since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+bool HasFunctions(const MathematicalProgram& program) {
+  return !program.generic_costs().empty() || !program.quadratic_constraints().empty() ||
+         !program.generic_constraints().empty();
 }
 
 int ExitCodeOf(const MathematicalProgramResult& result) {

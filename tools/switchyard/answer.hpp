@@ -14,6 +14,9 @@ using Clock = std::chrono::steady_clock;
 /// Seconds.
 double Since(Clock::time_point start);
 
+/// Are there costs or constraints that are functions, or quadratic constraints?
+bool HasFunctions(const MathematicalProgram& program);
+
 int ExitCodeOf(const MathematicalProgramResult& result);
 
 /// To standard error: which backends could serve, and by which bridges one does.

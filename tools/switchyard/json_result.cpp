@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <unordered_map>
 
+#include "answer.hpp"
 #include "switchyard/error.hpp"
 
 namespace switchyard::cli {
@@ -100,8 +101,21 @@ Json VertexNames(const GraphProblem& problem, const std::vector<const Edge*>& ed
 }  // namespace
 
 void WriteResult(const MathematicalProgram& program, const MathematicalProgramResult& result,
-                 const std::string& path) {
-  Write(Common("solve", program.name(), result), path);
+                 const std::optional<StartCounts>& starts, const std::string& path) {
+  Json json = Common("solve", program.name(), result);
+  if (HasFunctions(program)) {
+    const EvaluationCounts& n = result.evaluations;
+    json["evaluations"] = {{"objective", n.objective},
+                           {"gradient", n.gradient},
+                           {"constraints", n.constraints},
+                           {"jacobian", n.jacobian},
+                           {"hessian", n.hessian}};
+  }
+  if (starts) {
+    json["starts"] = {
+        {"tried", starts->tried}, {"answered", starts->answered}, {"distinct", starts->distinct}};
+  }
+  Write(json, path);
 }
 
 void WritePlanResult(const GraphProblem& problem, const ShortestPath& found,
@@ -170,6 +184,8 @@ void WriteSolution(const MathematicalProgram& program, const MathematicalProgram
     };
     for (const auto& binding : program.affine_constraints()) add(binding);
     for (const auto& binding : program.cone_constraints()) add(binding);
+    for (const auto& binding : program.quadratic_constraints()) add(binding);
+    for (const auto& binding : program.generic_constraints()) add(binding);
   }
   Write({{"variables", std::move(variables)}, {"rows", std::move(rows)}}, path);
 }

@@ -1,21 +1,25 @@
 #include <cmath>
 #include <iostream>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "answer.hpp"
 #include "commands.hpp"
+#include "derivatives.hpp"
 #include "interrupt.hpp"
 #include "json_result.hpp"
 #include "no_backend.hpp"
 #include "solve_options.hpp"
+#include "starts.hpp"
 #include "switchyard/io/read.hpp"
 #include "switchyard/solve/solve.hpp"
 
 namespace switchyard::cli {
 namespace {
 
-void SayInWords(const MathematicalProgramResult& r) {
+void SayInWords(const MathematicalProgram& program, const MathematicalProgramResult& r,
+                const std::optional<StartCounts>& starts) {
   std::cout << fmt::format("{}", to_string(r.termination));
   if (!r.solver.empty()) std::cout << fmt::format(" by {} {}", r.solver, r.solver_version);
   std::cout << '\n';
@@ -26,36 +30,69 @@ void SayInWords(const MathematicalProgramResult& r) {
     const Violation& v = r.violation;
     std::cout << fmt::format("violation  bounds {:.2g}, rows {:.2g}, cones {:.2g}", v.bounds,
                              v.rows, v.cones);
+    if (HasFunctions(program)) std::cout << fmt::format(", functions {:.2g}", v.nonlinear);
     std::cout << fmt::format(", integrality {:.2g}\n", v.integrality);
+  }
+  if (starts) {
+    std::cout << fmt::format("starts     {} of {} gave an answer, {} of these distinct\n",
+                             starts->answered, starts->tried, starts->distinct);
   }
   std::cout << fmt::format("seconds    {:.3f}\n", r.seconds.total);
   for (const std::string& note : r.notes) std::cerr << "note: " << note << '\n';
 }
 
-int Solve(const std::string& file, SolveOptions& options) {
-  const Clock::time_point start = Clock::now();
-  WatchInterrupts();
+std::unique_ptr<MathematicalProgram> Read(const std::string& file, const SolveOptions& options) {
   std::vector<std::string> notes;
   ReadOptions reading;
   reading.notes = &notes;
-  const auto program = ReadProgram(file, reading);
-  const double read = Since(start);
+  auto program = ReadProgram(file, reading);
   for (const std::string& note : notes) {
     if (!options.quiet) std::cerr << "note: " << note << '\n';
   }
+  return program;
+}
+
+MathematicalProgramResult SolveOnce(const MathematicalProgram& program, SolveOptions& options,
+                                    Clock::time_point start) {
   const auto host = options.MakeHost();
   SolverOptions given = options.ForSolver(*host, Since(start));
   given.progress = TerminalProgress(options.quiet);
-  SolverSession session(*program, options.solver, given, *host);
+  SolverSession session(program, options.solver, given, *host);
   if (!options.dump.empty()) session.Dump(options.dump);
   MathematicalProgramResult result = session.Solve();
   EndProgress(given.progress);
+  return result;
+}
+
+MathematicalProgramResult SolveOften(const MathematicalProgram& program, SolveOptions& options,
+                                     Clock::time_point start, StartCounts* counts) {
+  Host& host = Host::Default();
+  options.SetUp(host);
+  const SolverOptions given = options.ForSolver(host, Since(start));
+  if (!options.dump.empty()) SolverSession(program, options.solver, given).Dump(options.dump);
+  return SolveFromStarts(program, options, given, counts);
+}
+
+int Solve(const std::string& file, SolveOptions& options) {
+  const Clock::time_point start = Clock::now();
+  WatchInterrupts();
+  const auto program = Read(file, options);
+  const double read = Since(start);
+  if (options.check_derivatives) {
+    return CheckDerivativesAtGuess(*program, options.quiet) ? kAnswered : kNotAnswered;
+  }
+  std::optional<StartCounts> starts;
+  if (options.starts > 0) starts.emplace();
+  MathematicalProgramResult result =
+      starts ? SolveOften(*program, options, start, &*starts) : SolveOnce(*program, options, start);
   result.seconds.read = read;
   result.seconds.total = Since(start);
   if (options.explain) Explain(result);
-  if (!options.json.empty()) WriteResult(*program, result, options.json);
+  if (!options.json.empty()) WriteResult(*program, result, starts, options.json);
   if (!options.solution.empty()) WriteSolution(*program, result, options.solution);
-  if (!options.quiet && options.json != "-" && options.solution != "-") SayInWords(result);
+  if (!options.quiet && options.json != "-" && options.solution != "-") {
+    SayInWords(*program, result, starts);
+  }
   const int code = ExitCodeOf(result);
   if (!options.quiet) SayWhyNot(file, result, code);
   return code;
@@ -72,7 +109,7 @@ void AddSolveCommand(CLI::App& app, int& code) {
   command->add_option("FILE", *file, "The problem; - is standard input, .gz is read as it is")
       ->required();
   options->AddTo(*command);
-  command->add_option("--dump", options->dump, "Write the lowered problem, for a bug report");
+  options->AddOwnOfSolveTo(*command);
   command->callback([options, file, &code] {
     try {
       code = Solve(*file, *options);

@@ -1,7 +1,9 @@
 #include "solve_options.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <mutex>
+#include <system_error>
 
 #include "interrupt.hpp"
 #include "no_backend.hpp"
@@ -32,6 +34,20 @@ void SolveOptions::AddTo(CLI::App& command) {
   command.add_flag("--explain", explain, "Say which backends could serve, and which one does");
 }
 
+void SolveOptions::AddOwnOfSolveTo(CLI::App& command) {
+  command.add_option("--dump", dump, "Write the lowered problem, for a bug report");
+  command
+      .add_option("--starts", starts,
+                  "Solve from so many points: the file's guess, and others drawn by --seed")
+      ->check(CLI::PositiveNumber);
+  CLI::Option* const check = command.add_flag(
+      "--check-derivatives", check_derivatives,
+      "Do not solve: compare the derivatives of functions with differences, at the guess");
+  for (const char* answer : {"--starts", "--json", "--solution", "--dump"}) {
+    check->excludes(command.get_option(answer));
+  }
+}
+
 std::unique_ptr<Host> SolveOptions::MakeHost() {
   HostOptions host_options;
   host_options.files = plugins;
@@ -40,17 +56,34 @@ std::unique_ptr<Host> SolveOptions::MakeHost() {
     const bool asked_for = std::find(plugins.begin(), plugins.end(), problem.path) != plugins.end();
     Require(!asked_for, "--plugin ", problem.path, ": ", problem.reason);
   }
-  if (!log.empty()) {
-    log_file_ = std::make_shared<std::ofstream>(log);
-    Require(log_file_->good(), "--log ", log, ": the file cannot be written");
-    auto mutex = std::make_shared<std::mutex>();
-    host->SetLog([file = log_file_, mutex](sy_level, const std::string& text) {
-      const std::lock_guard lock(*mutex);
-      *file << text;
-      if (text.empty() || text.back() != '\n') *file << '\n';
-    });
-  }
+  SendLog(*host);
   return host;
+}
+
+void SolveOptions::SetUp(Host& host) {
+  for (const std::string& file : plugins) {
+    const auto backends = host.backends();
+    const bool there = std::any_of(backends.begin(), backends.end(), [&](const Backend* one) {
+      std::error_code absent;
+      return std::filesystem::equivalent(one->origin, file, absent);
+    });
+    if (!there && !host.Load(file)) {
+      Refuse("--plugin ", file, ": ", host.problems().back().reason);
+    }
+  }
+  SendLog(host);
+}
+
+void SolveOptions::SendLog(Host& host) {
+  if (log.empty()) return;
+  log_file_ = std::make_shared<std::ofstream>(log);
+  Require(log_file_->good(), "--log ", log, ": the file cannot be written");
+  auto mutex = std::make_shared<std::mutex>();
+  host.SetLog([file = log_file_, mutex](sy_level, const std::string& text) {
+    const std::lock_guard lock(*mutex);
+    *file << text;
+    if (text.empty() || text.back() != '\n') *file << '\n';
+  });
 }
 
 SolverOptions SolveOptions::ForSolver(Host& host, double spent) const {
