@@ -12,6 +12,7 @@ import sys
 from pathlib import Path
 
 QUOTE = re.compile(r"<!-- from (\S+) -->\n+```\w*\n(.*?)```", re.DOTALL)
+CODE = re.compile(r"```.*?```|`[^`\n]*`", re.DOTALL)
 LINK = re.compile(r"\]\((?!https?:|#)([^)#\s]+)")
 
 
@@ -23,7 +24,7 @@ def mistakes(source, document):
             yield f"{document}: quotes {name}, which does not exist"
         elif block not in file.read_text():
             yield f"{document}: the block from {name} is not in that file word for word"
-    for place in LINK.findall(text):
+    for place in LINK.findall(CODE.sub("", text)):
         if not (source / document).parent.joinpath(place).exists():
             yield f"{document}: links to {place}, which does not exist"
 
