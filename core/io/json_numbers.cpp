@@ -81,6 +81,7 @@ SparseMatrix ReadMatrix(JsonValue matrix, JsonRoom* room) {
   const int rows = fields["rows"].Integer(0, kIntLimit, "a number of rows");
   const int cols = fields["cols"].Integer(0, kIntLimit, "a number of columns");
   room->Take(static_cast<std::size_t>(cols), fields["cols"]);
+  room->Take(static_cast<std::size_t>(rows), fields["rows"]);  // Eigen reserves by the larger one
   std::vector<Entry> entries = ReadEntries(fields["entries"], rows, cols);
   if (!std::is_sorted(entries.begin(), entries.end(), InOrder)) {
     std::stable_sort(entries.begin(), entries.end(), InOrder);

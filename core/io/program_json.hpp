@@ -27,7 +27,7 @@ struct EntrySource {
 
   const JsonTable* matrices = nullptr;
   std::vector<std::optional<SparseMatrix>> read;  // of them
-  JsonRoom numbers;                               // columns and entries of sparse matrices
+  JsonRoom numbers;                               // rows, columns and entries of sparse matrices
   JsonRoom dense;       // entries of the matrices behind a linear matrix inequality
   JsonRoom operations;  // of functions, counted for each output that needs them
 };

@@ -429,7 +429,8 @@ TEST(ProgramFunctions, OutputsThatNeedTooManyOperationsAreRefused) {
   const int n = 14'000;
   for (int k = 1; k < n; ++k) {
     steps += ",[\"sin\"," + std::to_string(k) + "]";
-    outputs += "," + std::to_string(n);
+    outputs += ',';
+    outputs += std::to_string(n);
     sides += ",0";
   }
   EXPECT_TRUE(SaidOf(Variables(1) +
