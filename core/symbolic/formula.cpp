@@ -204,7 +204,9 @@ std::string Formula::to_string(std::size_t limit) const {
     if (text.size() > limit) return text + " ...";
     if (!text.empty()) text += kind_ == Kind::kAnd ? " and " : " or ";
     const bool brackets = kind_ == Kind::kAnd && part.kind_ == Kind::kOr;
-    text += brackets ? "(" + part.to_string(limit) + ")" : part.to_string(limit);
+    if (brackets) text += '(';
+    text += part.to_string(limit);
+    if (brackets) text += ')';
   }
   return text;
 }

@@ -223,8 +223,10 @@ TEST(ErrorsOf, SeeEachThingThatIsWrong) {
     for (const double by : {1e-2, -1e-2}) {
       Answer moved = good;
       for (double& x : moved.x) x += by;
+      Vectors point;
+      point.x = moved.x;
       const double primal = ErrorsOf(d, moved).primal;
-      EXPECT_GE(primal * (1 + 4 * SizeOf(d, {moved.x, {}, {}, {}}) * d.num_vars),
+      EXPECT_GE(primal * (1 + 4 * SizeOf(d, point) * d.num_vars),
                 testing::PrimalError(d, moved.x) * 0.99);
       EXPECT_LE(primal, testing::PrimalError(d, moved.x));
       Answer dual = good;
