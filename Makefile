@@ -18,7 +18,7 @@ ready:
 build: ready ## build everything; leaves build/bin/switchyard and its plugins
 	@scripts/build
 
-demo: ready ## build, solve three problems with every backend, plan a way through a building
+demo: ready ## build, solve four problems with every backend, plan a way through a building
 	@scripts/build products
 	@scripts/demo
 

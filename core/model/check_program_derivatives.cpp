@@ -37,7 +37,6 @@ class Check {
  private:
   template <class C>
   void Term(const Binding<C>& binding) {
-    ++report_.num_terms;
     const auto& evaluator = *binding.evaluator();
     const std::string name = evaluator.Name();
     const Eigen::VectorXd values = program_.ValuesOf(binding.variables(), x_);
@@ -50,6 +49,7 @@ class Check {
       report_.notes.push_back(name + " is not defined at the point");
       return;
     }
+    ++report_.num_terms;
     const auto function = AsFunction(binding.evaluator());
     const DerivativeReport found = CheckDerivatives(*function, values, {}, tolerance_);
     report_.worst_error = std::max(report_.worst_error, found.worst_error);
@@ -109,7 +109,7 @@ std::string to_string(const ProgramDerivativeReport& report) {
                                   one.entry.by_differences, "\n");
   }
   for (const std::string& note : report.notes) text += note + "\n";
-  if (report.wrong.empty()) {
+  if (report.wrong.empty() && report.num_terms > 0) {
     text +=
         Text("the derivatives of ", report.num_terms, report.num_terms == 1 ? " term" : " terms",
              " agree with differences to ", report.worst_error, "\n");

@@ -32,7 +32,7 @@ CORE_KNOWS = {
 for above in ("solve", "sets", "gcs", "trajectory"):
     CORE_KNOWS[above] = set(CORE_KNOWS)
 # Files hold programs and graphs, and no answers.
-CORE_KNOWS["io"] = {"linalg", "model", "sets", "gcs"}
+CORE_KNOWS["io"] = {"linalg", "functions", "symbolic", "model", "sets", "gcs"}
 
 # Inside solvers, likewise.
 SOLVERS_KNOW = {

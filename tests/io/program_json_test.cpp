@@ -277,6 +277,11 @@ TEST(ProgramJson, SaysWhatIsWrongAndWhere) {
   EXPECT_EQ(SaidOf(constraint("\"exponential_cone\", \"A\": {\"rows\": 2, \"cols\": 1, "
                               "\"entries\": []}, \"b\": [0, 0]")),
             "a.json: /constraints/c/A: needs a matrix of 3 rows, got one of 2");
+  EXPECT_EQ(
+      SaidOf(constraint("\"linear\", \"A\": {\"rows\": 2147483646, \"cols\": 1, \"entries\": "
+                        "[]}, \"lb\": [], \"ub\": []")),
+      "a.json: /constraints/c/A/rows: needs dimensions that go with the size of the file, got "
+      "2147483646 beyond them");
   EXPECT_EQ(SaidOf(constraint("\"positive_semidefinite\", \"rows\": 40000")),
             "a.json: /constraints/c/rows: needs dimensions that go with the size of the file, got "
             "1600000000 beyond them");

@@ -115,7 +115,7 @@ class SWITCHYARD_EXPORT Tape {
 /// the function has no Hessian.
 SWITCHYARD_EXPORT std::shared_ptr<const Function> CompileTape(const Tape& tape);
 
-/// The tape that `f` was compiled from, as long as f lives; null where CompileTape did not make it.
+/// The tape that `f` was compiled from, as long as f lives; null where none was, as for own code.
 SWITCHYARD_EXPORT const Tape* TapeOf(const Function& f);
 
 }  // namespace switchyard

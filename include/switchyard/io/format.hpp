@@ -12,7 +12,7 @@ enum class FileFormat {
   kByEnding,  // of the path, ".gz" aside; where that says nothing, by the first line of the text
   kMps,       // MPS, fixed or free: linear and quadratic programs, with integers
   kCbf,       // Conic Benchmark Format: cones, semidefinite ones among them, with integers
-  kJson,      // program/1: every program, exactly
+  kJson,      // program/1: all but functions of a user's own code, exactly
 };
 
 /// The format called so ("mps", "cbf", "json"). Throws InvalidArgument, with the names there are.

@@ -29,7 +29,7 @@ struct ProgramDerivativeReport {
   std::vector<TermMismatch> wrong;
   /// Functions that are not defined at the point, or have no derivatives to be checked.
   std::vector<std::string> notes;
-  int num_terms = 0;
+  int num_terms = 0;  // checked
   double worst_error = 0;
 
   [[nodiscard]] bool agrees() const { return wrong.empty(); }

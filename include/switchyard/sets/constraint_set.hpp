@@ -1,4 +1,4 @@
-// switchyard/sets/constraint_set.hpp - the points that satisfy linear and conic constraints.
+// switchyard/sets/constraint_set.hpp - the points that satisfy constraints that have a perspective.
 #pragma once
 
 #include <memory>
