@@ -193,9 +193,9 @@ INSTANTIATE_TEST_SUITE_P(EveryClass, Dual,
                          ::testing::Combine(::testing::ValuesIn(kCases),
                                             ::testing::Values("highs", "clp", "cbc", "conic",
                                                               "clarabel", "ipopt", "nlopt")),
-                         [](const auto& info) {
-                           return std::string(std::get<0>(info.param).name) + "_" +
-                                  std::get<1>(info.param);
+                         [](const auto& dual) {
+                           return std::string(std::get<0>(dual.param).name) + "_" +
+                                  std::get<1>(dual.param);
                          });
 
 }  // namespace
