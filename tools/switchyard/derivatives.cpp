@@ -46,7 +46,8 @@ bool CheckDerivativesAtGuess(const MathematicalProgram& program, bool quiet) {
   const Eigen::VectorXd x = GuessWithinBounds(program);
   const ProgramDerivativeReport report = CheckDerivatives(program, x);
   if (!quiet) {
-    std::cout << (report.num_terms == 0 ? "the program has no functions\n" : to_string(report));
+    const bool none = report.num_terms == 0 && report.notes.empty();
+    std::cout << (none ? "the program has no functions\n" : to_string(report));
   }
   return report.agrees() && AllDefined(program, program.generic_costs(), x) &&
          AllDefined(program, program.generic_constraints(), x);
