@@ -267,7 +267,7 @@ void Lowering::WriteQuadraticConstraints(const MathematicalProgram& program) {
 
 bool Lowering::NeedsFunctions(const MathematicalProgram& program) const {
   return NeedsNonlinearPart(program) ||
-         (form_ == Quadratics::kFunctions && !program.quadratic_constraints().empty());
+         (form_ == Quadratics::kAsFunctions && !program.quadratic_constraints().empty());
 }
 
 bool Lowering::WriteNonlinear(const MathematicalProgram& program) {

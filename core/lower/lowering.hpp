@@ -24,10 +24,10 @@ class Lowering {
  public:
   /// What convex quadratic constraints are written as where nothing else is a function: for
   /// backends that take cones, and for those that take functions and no cones.
-  enum class Quadratics { kCones, kFunctions };
+  enum class Quadratics { kAsCones, kAsFunctions };
 
   /// Throws InvalidArgument where a cost cannot be lowered: a norm that is maximized.
-  explicit Lowering(const MathematicalProgram& program, Quadratics form = Quadratics::kCones);
+  explicit Lowering(const MathematicalProgram& program, Quadratics form = Quadratics::kAsCones);
 
   [[nodiscard]] const Problem& problem() const { return problem_; }
 

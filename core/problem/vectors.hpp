@@ -11,7 +11,7 @@ struct Vectors {
   std::vector<double> x_dual;
   std::vector<double> row_dual;
   std::vector<double> cone_dual;
-  std::vector<double> nlp_dual;
+  std::vector<double> nlp_dual = {};
 };
 
 }  // namespace switchyard

@@ -154,7 +154,7 @@ void SolverSession::State::ChooseForm() {
     if (!candidate.suitable) continue;
     const sy_solver& facts = candidate.backend->facts;
     const bool functions = (facts.accepts & SY_ACCEPTS_NLP) != 0 && facts.cones == 0;
-    if (functions) lowering.emplace(program, Lowering::Quadratics::kFunctions);
+    if (functions) lowering.emplace(program, Lowering::Quadratics::kAsFunctions);
     return;
   }
 }
