@@ -3,15 +3,23 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <optional>
 #include <typeinfo>
 #include <utility>
 
+#include "switchyard/error.hpp"
+#include "switchyard/sets/affine_ball.hpp"
+#include "switchyard/sets/affine_subspace.hpp"
+#include "switchyard/sets/cartesian_product.hpp"
 #include "switchyard/sets/constraint_set.hpp"
+#include "switchyard/sets/convex_hull.hpp"
 #include "switchyard/sets/hpolyhedron.hpp"
 #include "switchyard/sets/hyperellipsoid.hpp"
 #include "switchyard/sets/hyperrectangle.hpp"
 #include "switchyard/sets/intersection.hpp"
+#include "switchyard/sets/minkowski_sum.hpp"
 #include "switchyard/sets/point.hpp"
+#include "switchyard/sets/vpolytope.hpp"
 
 namespace switchyard::io {
 namespace {
@@ -19,10 +27,13 @@ namespace {
 using SetPointer = std::shared_ptr<const ConvexSet>;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+using Elements = std::vector<const ConvexSet*>;
+
 // One class of sets: a new one is a row of kSets.
 struct SetFacts {
   std::string_view type;
   bool (*is)(const ConvexSet& set);
+  Elements (*elements)(const ConvexSet& set);  // the sets that it is made of
   SetPointer (*read)(JsonValue entry, EntrySource* source, const ConstraintOf& constraint_of);
   void (*write)(const ConvexSet& set, const NameOf& name_of, EntrySink* sink);
 };
@@ -32,9 +43,36 @@ bool Is(const ConvexSet& set) {
   return typeid(set) == typeid(S);
 }
 
+Elements None(const ConvexSet& /*set*/) { return {}; }
+
 void AppendVector(const char* member, const VectorRef& numbers, EntrySink* sink) {
   *sink->text += Text(", \"", member, "\": ");
   AppendJson(numbers, sink->text);
+}
+
+// A list of rows of `cols` entries, as `why` asks for.
+Eigen::MatrixXd ReadRows(JsonValue list, Eigen::Index cols, const char* why) {
+  list.ForEach([&](JsonValue row) { CheckEntries(row, cols, why); });
+  Eigen::MatrixXd matrix(static_cast<Eigen::Index>(list.Size()), cols);
+  Eigen::Index i = 0;
+  list.ForEach([&](JsonValue row) { matrix.row(i++) = ReadVector(row); });
+  return matrix;
+}
+
+// The same with as many entries as the first row has.
+Eigen::MatrixXd ReadEqualRows(JsonValue list) {
+  std::optional<Eigen::Index> cols;
+  list.ForEach([&](JsonValue row) { cols = cols.value_or(row.Size()); });
+  return ReadRows(list, cols.value_or(0), "entry of the first row");
+}
+
+void AppendRows(const char* member, const Eigen::MatrixXd& matrix, EntrySink* sink) {
+  *sink->text += Text(", \"", member, "\": [");
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+    if (i > 0) *sink->text += ", ";
+    AppendJson(Eigen::VectorXd(matrix.row(i)), sink->text);
+  }
+  *sink->text += ']';
 }
 
 SetPointer ReadPoint(JsonValue entry, EntrySource* /*source*/, const ConstraintOf& /*of*/) {
@@ -75,24 +113,14 @@ void WritePolyhedron(const ConvexSet& set, const NameOf& /*name_of*/, EntrySink*
 SetPointer ReadEllipsoid(JsonValue entry, EntrySource* /*source*/, const ConstraintOf& /*of*/) {
   const JsonFields fields(entry, {"type", "center", "A"});
   const Eigen::VectorXd center = ReadVector(fields["center"]);
-  const auto rows = static_cast<Eigen::Index>(fields["A"].Size());
-  fields["A"].ForEach(
-      [&](JsonValue row) { CheckEntries(row, center.size(), "coordinate of the center"); });
-  Eigen::MatrixXd A(rows, center.size());
-  Eigen::Index i = 0;
-  fields["A"].ForEach([&](JsonValue row) { A.row(i++) = ReadVector(row); });
+  const Eigen::MatrixXd A = ReadRows(fields["A"], center.size(), "coordinate of the center");
   return std::make_shared<Hyperellipsoid>(A, center);
 }
 
 void WriteEllipsoid(const ConvexSet& set, const NameOf& /*name_of*/, EntrySink* sink) {
   const auto& ellipsoid = static_cast<const Hyperellipsoid&>(set);
   AppendVector("center", ellipsoid.center(), sink);
-  *sink->text += ", \"A\": [";
-  for (Eigen::Index i = 0; i < ellipsoid.A().rows(); ++i) {
-    if (i > 0) *sink->text += ", ";
-    AppendJson(Eigen::VectorXd(ellipsoid.A().row(i)), sink->text);
-  }
-  *sink->text += ']';
+  AppendRows("A", ellipsoid.A(), sink);
 }
 
 SetPointer ReadConstraints(JsonValue entry, EntrySource* source, const ConstraintOf& of) {
@@ -125,39 +153,162 @@ void WriteConstraints(const ConvexSet& set, const NameOf& name_of, EntrySink* si
   *sink->text += ']';
 }
 
-SetPointer ReadIntersection(JsonValue entry, EntrySource* source, const ConstraintOf& of) {
-  const JsonFields fields(entry, {"type", "sets"});
+SetPointer ReadPolytope(JsonValue entry, EntrySource* /*source*/, const ConstraintOf& /*of*/) {
+  const JsonFields fields(entry, {"type", "vertices"});
+  return std::make_shared<VPolytope>(ReadEqualRows(fields["vertices"]).transpose());
+}
+
+void WritePolytope(const ConvexSet& set, const NameOf& /*name_of*/, EntrySink* sink) {
+  AppendRows("vertices", static_cast<const VPolytope&>(set).vertices().transpose(), sink);
+}
+
+// One row of the matrix for each entry of the vector.
+Eigen::MatrixXd ReadRowsFor(JsonValue list, const Eigen::VectorXd& vector, const char* why) {
+  CheckEntries(list, vector.size(), why);
+  return ReadEqualRows(list);
+}
+
+SetPointer ReadBall(JsonValue entry, EntrySource* /*source*/, const ConstraintOf& /*of*/) {
+  const JsonFields fields(entry, {"type", "center", "B"});
+  const Eigen::VectorXd center = ReadVector(fields["center"]);
+  const Eigen::MatrixXd B = ReadRowsFor(fields["B"], center, "row for a coordinate of the center");
+  return std::make_shared<AffineBall>(B, center);
+}
+
+void WriteBall(const ConvexSet& set, const NameOf& /*name_of*/, EntrySink* sink) {
+  AppendVector("center", static_cast<const AffineBall&>(set).center(), sink);
+  AppendRows("B", static_cast<const AffineBall&>(set).B(), sink);
+}
+
+SetPointer ReadSubspace(JsonValue entry, EntrySource* source, const ConstraintOf& /*of*/) {
+  const JsonFields fields(entry, {"type", "translation", "basis"});
+  const Eigen::VectorXd translation = ReadVector(fields["translation"]);
+  const auto n = static_cast<std::size_t>(translation.size());
+  source->dense.Take(n * n, entry);  // what is orthogonal to it
+  const Eigen::MatrixXd basis =
+      ReadRowsFor(fields["basis"], translation, "row for a coordinate of the translation");
+  try {
+    return std::make_shared<AffineSubspace>(basis, translation);
+  } catch (const InvalidArgument&) {
+    fields["basis"].Fail("linearly independent columns", "a matrix of lower rank");
+  }
+}
+
+void WriteSubspace(const ConvexSet& set, const NameOf& /*name_of*/, EntrySink* sink) {
+  AppendVector("translation", static_cast<const AffineSubspace&>(set).translation(), sink);
+  AppendRows("basis", static_cast<const AffineSubspace&>(set).basis(), sink);
+}
+
+// ---- Sets made of sets, which stand in place: nested no deeper than the document is ----
+
+ConvexSets ReadElements(JsonValue list, EntrySource* source, const ConstraintOf& of) {
   ConvexSets sets;
-  fields["sets"].ForEach([&](JsonValue element) {  // nested no deeper than the document is
-    sets.emplace_back(ReadSet(element, source, of));
-    const int dimension = sets.back()->ambient_dimension();
+  list.ForEach([&](JsonValue element) { sets.emplace_back(ReadSet(element, source, of)); });
+  return sets;
+}
+
+// All of one dimension, one or more.
+ConvexSets ReadAlike(JsonValue list, EntrySource* source, const ConstraintOf& of) {
+  ConvexSets sets = ReadElements(list, source, of);
+  std::size_t i = 0;
+  list.ForEach([&](JsonValue element) {
+    const int dimension = sets[i++]->ambient_dimension();
     if (dimension != sets.front()->ambient_dimension()) {
       element.Fail(Text("a set in R^", sets.front()->ambient_dimension(), " as the first is"),
                    Text("one in R^", dimension));
     }
   });
-  if (sets.empty()) fields["sets"].Fail("one set or more");
-  return std::make_shared<Intersection>(std::move(sets));
+  if (sets.empty()) list.Fail("one set or more");
+  return sets;
 }
 
-void WriteIntersection(const ConvexSet& set, const NameOf& name_of, EntrySink* sink) {
-  const auto& intersection = static_cast<const Intersection&>(set);
+void WriteElements(const Elements& elements, const NameOf& name_of, EntrySink* sink) {
   *sink->text += ", \"sets\": [";
-  for (int i = 0; i < intersection.num_elements(); ++i) {
+  for (std::size_t i = 0; i < elements.size(); ++i) {
     if (i > 0) *sink->text += ", ";
-    AppendSet(intersection.element(i), name_of, sink);
+    AppendSet(*elements[i], name_of, sink);
   }
   *sink->text += ']';
 }
 
+// Of a class with a number of elements, each by its index.
+template <class S, auto kCount, auto kElement>
+Elements ElementsOf(const ConvexSet& set) {
+  const auto& whole = static_cast<const S&>(set);
+  Elements elements;
+  for (int i = 0; i < (whole.*kCount)(); ++i) elements.push_back(&(whole.*kElement)(i));
+  return elements;
+}
+constexpr auto kMeeting =
+    ElementsOf<Intersection, &Intersection::num_elements, &Intersection::element>;
+constexpr auto kFactors =
+    ElementsOf<CartesianProduct, &CartesianProduct::num_factors, &CartesianProduct::factor>;
+constexpr auto kTerms = ElementsOf<MinkowskiSum, &MinkowskiSum::num_terms, &MinkowskiSum::term>;
+constexpr auto kMembers = ElementsOf<ConvexHull, &ConvexHull::num_elements, &ConvexHull::element>;
+
+template <class S>
+SetPointer ReadMadeOf(JsonValue entry, EntrySource* source, const ConstraintOf& of) {
+  const JsonFields fields(entry, {"type", "sets"});
+  return std::make_shared<S>(ReadAlike(fields["sets"], source, of));
+}
+
+// Which members have points is not asked while reading.
+SetPointer ReadHull(JsonValue entry, EntrySource* source, const ConstraintOf& of) {
+  const JsonFields fields(entry, {"type", "sets"});
+  return std::make_shared<ConvexHull>(ReadAlike(fields["sets"], source, of), false);
+}
+
+template <auto kElements>
+void WriteMadeOf(const ConvexSet& set, const NameOf& name_of, EntrySink* sink) {
+  WriteElements(kElements(set), name_of, sink);
+}
+
+SetPointer ReadProduct(JsonValue entry, EntrySource* source, const ConstraintOf& of) {
+  const JsonFields fields(entry, {"type", "sets", "A", "b"});
+  ConvexSets sets = ReadElements(fields["sets"], source, of);
+  const auto A = fields.Find("A");
+  const auto b = fields.Find("b");
+  if (A.has_value() != b.has_value()) entry.Fail("both \"A\" and \"b\", or neither", "one");
+  if (!A) return std::make_shared<CartesianProduct>(std::move(sets));
+  Eigen::Index dimensions = 0;
+  for (const ConvexSetPointer& set : sets) dimensions += set->ambient_dimension();
+  CheckEntries(*b, dimensions, "dimension of the factors");
+  const Eigen::VectorXd shift = ReadVector(*b);
+  return std::make_shared<CartesianProduct>(
+      std::move(sets), ReadRowsFor(*A, shift, "dimension of the factors"), shift);
+}
+
+void WriteProduct(const ConvexSet& set, const NameOf& name_of, EntrySink* sink) {
+  const auto& product = static_cast<const CartesianProduct&>(set);
+  WriteElements(kFactors(set), name_of, sink);
+  if (!product.A()) return;
+  AppendRows("A", *product.A(), sink);
+  AppendVector("b", *product.b(), sink);
+}
+
 constexpr std::array kSets = {
-    SetFacts{"point", Is<Point>, ReadPoint, WritePoint},
-    SetFacts{"hyperrectangle", Is<Hyperrectangle>, ReadBox, WriteBox},
-    SetFacts{"hpolyhedron", Is<HPolyhedron>, ReadPolyhedron, WritePolyhedron},
-    SetFacts{"hyperellipsoid", Is<Hyperellipsoid>, ReadEllipsoid, WriteEllipsoid},
-    SetFacts{"intersection_of_constraints", Is<ConstraintSet>, ReadConstraints, WriteConstraints},
-    SetFacts{"intersection", Is<Intersection>, ReadIntersection, WriteIntersection},
+    SetFacts{"point", Is<Point>, None, ReadPoint, WritePoint},
+    SetFacts{"hyperrectangle", Is<Hyperrectangle>, None, ReadBox, WriteBox},
+    SetFacts{"hpolyhedron", Is<HPolyhedron>, None, ReadPolyhedron, WritePolyhedron},
+    SetFacts{"hyperellipsoid", Is<Hyperellipsoid>, None, ReadEllipsoid, WriteEllipsoid},
+    SetFacts{"intersection_of_constraints", Is<ConstraintSet>, None, ReadConstraints,
+             WriteConstraints},
+    SetFacts{"intersection", Is<Intersection>, kMeeting, ReadMadeOf<Intersection>,
+             WriteMadeOf<kMeeting>},
+    SetFacts{"vpolytope", Is<VPolytope>, None, ReadPolytope, WritePolytope},
+    SetFacts{"affine_ball", Is<AffineBall>, None, ReadBall, WriteBall},
+    SetFacts{"affine_subspace", Is<AffineSubspace>, None, ReadSubspace, WriteSubspace},
+    SetFacts{"cartesian_product", Is<CartesianProduct>, kFactors, ReadProduct, WriteProduct},
+    SetFacts{"minkowski_sum", Is<MinkowskiSum>, kTerms, ReadMadeOf<MinkowskiSum>,
+             WriteMadeOf<kTerms>},
+    SetFacts{"convex_hull", Is<ConvexHull>, kMembers, ReadHull, WriteMadeOf<kMembers>},
 };
+
+const SetFacts* FactsOf(const ConvexSet& set) {
+  const auto facts =
+      std::find_if(kSets.begin(), kSets.end(), [&](const SetFacts& f) { return f.is(set); });
+  return facts != kSets.end() ? &*facts : nullptr;
+}
 
 }  // namespace
 
@@ -177,21 +328,21 @@ SetPointer ReadSet(JsonValue entry, EntrySource* source, const ConstraintOf& con
 }
 
 void AppendSet(const ConvexSet& set, const NameOf& name_of, EntrySink* sink) {
-  const auto facts =
-      std::find_if(kSets.begin(), kSets.end(), [&](const SetFacts& f) { return f.is(set); });
-  Require(facts != kSets.end(), "gcs/1 holds no ", set.Kind());
+  const SetFacts* const facts = FactsOf(set);
+  Require(facts != nullptr, "gcs/1 holds no ", set.Kind());
   *sink->text += Text("{\"type\": \"", facts->type, "\"");
   facts->write(set, name_of, sink);
   *sink->text += '}';
 }
 
-bool HasEntry(const ConvexSet& set) {
-  if (const auto* intersection = dynamic_cast<const Intersection*>(&set)) {
-    for (int i = 0; i < intersection->num_elements(); ++i) {
-      if (!HasEntry(intersection->element(i))) return false;
-    }
+std::string WhyNoEntry(const ConvexSet& set) {
+  const SetFacts* const facts = FactsOf(set);
+  if (facts == nullptr) return Text("a ", set.Kind(), ", a class of sets that files do not hold");
+  std::string why;
+  for (const ConvexSet* element : facts->elements(set)) {
+    if (why.empty()) why = WhyNoEntry(*element);
   }
-  return std::any_of(kSets.begin(), kSets.end(), [&](const SetFacts& f) { return f.is(set); });
+  return why;
 }
 
 }  // namespace switchyard::io

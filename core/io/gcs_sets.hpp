@@ -18,7 +18,7 @@ std::shared_ptr<const ConvexSet> ReadSet(JsonValue entry, EntrySource* source,
 /// The name that a constraint has in the file.
 using NameOf = std::function<std::string(const std::shared_ptr<const Constraint>& constraint)>;
 void AppendSet(const ConvexSet& set, const NameOf& name_of, EntrySink* sink);
-/// Is it of a class that files know?
-bool HasEntry(const ConvexSet& set);
+/// Why no file holds it, as what it or one of its elements is; empty where files do.
+std::string WhyNoEntry(const ConvexSet& set);
 
 }  // namespace switchyard::io

@@ -235,9 +235,8 @@ std::vector<std::string> CannotHold(const GraphProblem& problem) {
   }
   for (const auto* vertex : graph.Vertices()) {
     io::AddReasons(*vertex, "vertex " + vertex->name(), &reasons);
-    if (!io::HasEntry(vertex->set())) {
-      reasons.Add("vertex " + vertex->name(), "a set of a user's class");
-    }
+    const std::string why = io::WhyNoEntry(vertex->set());
+    if (!why.empty()) reasons.Add("vertex " + vertex->name(), why);
   }
   for (const auto* edge : graph.Edges()) {
     io::AddReasons(*edge, "edge " + edge->name(), &reasons);

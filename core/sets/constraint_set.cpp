@@ -1,8 +1,8 @@
 #include "switchyard/sets/constraint_set.hpp"
 
 #include "core/sets/scaled_constraint.hpp"
-#include "core/sets/scaled_rows.hpp"
 #include "switchyard/error.hpp"
+#include "switchyard/sets/scaled_rows.hpp"
 
 namespace switchyard {
 

@@ -1,12 +1,14 @@
-// Some point of a set: successive projections on rows, and steps towards cones, find one of most
-// sets in a few sweeps (Kaczmarz's method for inequalities: Agmon, Motzkin and Schoenberg, 1954);
-// the rest is a program for a backend.
+// Some point of a set. Of a polyhedron by the dense simplex method; of others, successive
+// projections on rows, and steps towards cones, find one of most sets in a few sweeps (Kaczmarz's
+// method for inequalities: Agmon, Motzkin and Schoenberg, 1954); the rest is a program for a
+// backend.
 #include "core/sets/feasible_point.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
+#include "core/sets/section_lp.hpp"
 #include "switchyard/error.hpp"
 #include "switchyard/solve/solve.hpp"
 
@@ -104,6 +106,9 @@ std::optional<Eigen::VectorXd> ByProjections(const ConvexSet& set) {
 }  // namespace
 
 std::optional<Eigen::VectorXd> FeasiblePoint(const ConvexSet& set) {
+  if (IsSmallPolyhedron(set.scaled())) {
+    if (const PointByLp found = FeasiblePointByLp(set.scaled()); found.decided) return found.point;
+  }
   if (set.bounding_box().empty) return std::nullopt;
   if (set.ambient_dimension() == 0) return Eigen::VectorXd();
   if (auto x = ByProjections(set)) return x;

@@ -1,7 +1,10 @@
 #include "switchyard/sets/hyperrectangle.hpp"
 
-#include "core/sets/scaled_rows.hpp"
+#include <algorithm>
+#include <cmath>
+
 #include "switchyard/error.hpp"
+#include "switchyard/sets/scaled_rows.hpp"
 
 namespace switchyard {
 
@@ -20,6 +23,17 @@ Eigen::VectorXd Hyperrectangle::Center() const {
   Require(lb_.allFinite() && ub_.allFinite(),
           "a hyperrectangle with an infinite side has no center");
   return 0.5 * (lb_ + ub_);
+}
+
+Eigen::VectorXd Hyperrectangle::UniformSample(RandomGenerator* generator) const {
+  Require(generator != nullptr, "UniformSample needs a generator, got a null pointer");
+  Require(lb_.allFinite() && ub_.allFinite(),
+          "a hyperrectangle with an infinite side has no even distribution");
+  Eigen::VectorXd x(lb_.size());
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    x[i] = std::uniform_real_distribution<double>(lb_[i], ub_[i])(*generator);
+  }
+  return x.cwiseMin(ub_);
 }
 
 HPolyhedron Hyperrectangle::MakeHPolyhedron() const { return HPolyhedron::MakeBox(lb_, ub_); }
@@ -58,6 +72,29 @@ std::optional<SetBox> Hyperrectangle::DoBoundingBox() const { return SetBox{lb_,
 std::optional<Eigen::VectorXd> Hyperrectangle::DoMaybeGetPoint() const {
   if (lb_ == ub_) return lb_;
   return std::nullopt;
+}
+
+std::optional<Eigen::VectorXd> Hyperrectangle::DoMaybeGetFeasiblePoint() const {
+  Eigen::VectorXd x(lb_.size());
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    const bool both = std::isfinite(lb_[i]) && std::isfinite(ub_[i]);
+    x[i] = both ? 0.5 * lb_[i] + 0.5 * ub_[i] : std::clamp(0.0, lb_[i], ub_[i]);
+  }
+  return x;
+}
+
+double Hyperrectangle::DoSupport(const Eigen::VectorXd& direction) const {
+  double sum = 0;
+  for (Eigen::Index i = 0; i < direction.size(); ++i) {
+    if (direction[i] != 0) sum += direction[i] * (direction[i] > 0 ? ub_[i] : lb_[i]);
+  }
+  return sum;
+}
+
+// A flat box has none, whatever its other sides.
+std::optional<double> Hyperrectangle::DoCalcVolume() const {
+  const Eigen::VectorXd sides = ub_ - lb_;
+  return (sides.array() == 0).any() ? 0.0 : sides.prod();
 }
 
 }  // namespace switchyard

@@ -1,7 +1,7 @@
 #include "switchyard/sets/point.hpp"
 
-#include "core/sets/scaled_rows.hpp"
 #include "switchyard/error.hpp"
+#include "switchyard/sets/scaled_rows.hpp"
 
 namespace switchyard {
 

@@ -2,8 +2,8 @@
 // with t >= 0 and x in t {g holds}.
 #pragma once
 
-#include "core/sets/scaled_rows.hpp"
 #include "switchyard/model/constraint.hpp"
+#include "switchyard/sets/scaled_rows.hpp"
 
 namespace switchyard {
 

@@ -277,7 +277,8 @@ TEST(Gcs, SaysWhatIsWrongAndWhere) {
             "a.json: /sets/r/ub/1: needs an upper side of 0, the lower one, or more, got -1");
   EXPECT_EQ(said("\"point\"", "\"pointt\""),
             "a.json: /sets/p/type: needs a type of set (point, hyperrectangle, hpolyhedron, "
-            "hyperellipsoid, intersection_of_constraints, intersection), got \"pointt\" (the "
+            "hyperellipsoid, intersection_of_constraints, intersection, vpolytope, affine_ball, "
+            "affine_subspace, cartesian_product, minkowski_sum, convex_hull), got \"pointt\" (the "
             "nearest is \"point\")");
   EXPECT_EQ(said("\"set\": \"r\"", "\"set\": \"q\""),
             "a.json: /vertices/1/set: needs the name of a set, got \"q\" (the nearest is \"p\")");

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/QR>
+#include <cstdlib>
 #include <memory>
 #include <random>
 #include <vector>
@@ -16,6 +17,11 @@
 #include "switchyard/sets/point.hpp"
 
 namespace switchyard::testing {
+
+// What a set cannot tell in closed form is asked of backends; set before the process's own host is
+// made.
+[[maybe_unused]] inline const int plugins_set =
+    setenv("SWITCHYARD_PLUGIN_PATH", SWITCHYARD_PLUGIN_FOLDER, 1);
 
 class RandomSets {
  public:

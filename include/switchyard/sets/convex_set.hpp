@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "switchyard/export.hpp"
+#include "switchyard/model/parallelism.hpp"
 #include "switchyard/model/program.hpp"
+#include "switchyard/sets/random_generator.hpp"
 #include "switchyard/sets/scaled_set.hpp"
 
 namespace switchyard {
@@ -20,6 +22,13 @@ struct SetBox {
   Eigen::VectorXd upper;
   bool empty = false;  // proven: the set has no point
   [[nodiscard]] bool is_finite() const { return lower.allFinite() && upper.allFinite(); }
+};
+
+/// A volume by counting hits of a box.
+struct SampledVolume {
+  double volume = 0;
+  double rel_accuracy = 0;  // the standard deviation of `volume` over `volume`; infinite at no hit
+  int num_samples = 0;
 };
 
 /// A set is a value behind a pointer: immutable from its first use in a graph on. A class of sets
@@ -39,19 +48,44 @@ class SWITCHYARD_EXPORT ConvexSet {
   /// a linear program for each, its duals made safe.
   [[nodiscard]] const SetBox& bounding_box() const;
 
-  /// Throws std::runtime_error where no backend could tell.
+  /// IsEmpty, IsBounded, SupportFunction and Projection ask a backend where there is no closed
+  /// form, and throw std::runtime_error where none could tell.
   [[nodiscard]] bool IsEmpty() const;
-  [[nodiscard]] bool IsBounded() const;
+  /// Is the set empty, or 0 its only direction of recession? `parallelism`: how many of the
+  /// programs that this may take run at once. Computed once.
+  [[nodiscard]] bool IsBounded(Parallelism parallelism = Parallelism::None()) const;
   [[nodiscard]] bool IntersectsWith(const ConvexSet& other) const;
   /// The point of a set that is known to have exactly one.
   [[nodiscard]] std::optional<Eigen::VectorXd> MaybeGetPoint() const { return DoMaybeGetPoint(); }
   /// Some point of the set; none where it is empty.
   [[nodiscard]] std::optional<Eigen::VectorXd> MaybeGetFeasiblePoint() const;
-  /// Is every row and cone violated by at most `tolerance`, absolute? x has ambient_dimension()
-  /// entries.
+  /// Violation(x) <= tolerance. x has ambient_dimension() entries.
   [[nodiscard]] bool PointInSet(const VectorRef& x, double tolerance = 0) const;
-  /// The largest absolute violation of a row or cone at x.
+  /// How far x is from the set, absolute. Of a set without variables of its own: the largest
+  /// violation of a row or cone. Of one with some (VPolytope, MinkowskiSum, ConvexHull, ...): the
+  /// distance in the largest coordinate, infinite where it is empty; by a linear program to 1e-11
+  /// (1 + |x|), by others to 1e-6 (1 + |x|), and rather too small: 0 for every point of the set. Of
+  /// a product the largest of its factors.
   [[nodiscard]] double Violation(const VectorRef& x) const;
+  /// sup {direction'x : x in the set}: infinity where unbounded, -infinity where empty. Where a
+  /// program finds it and duals prove a bound, it is from above, by a part in 1e6 at most.
+  [[nodiscard]] double SupportFunction(const VectorRef& direction) const;
+  /// Of each column of `points` (ambient_dimension() rows) the Euclidean distance to the set, and
+  /// the nearest point of the set as a column. None where the set is empty.
+  [[nodiscard]] std::optional<std::pair<std::vector<double>, Eigen::MatrixXd>> Projection(
+      const Eigen::Ref<const Eigen::MatrixXd>& points) const;
+
+  /// Does CalcVolume answer for this class of sets?
+  [[nodiscard]] bool has_exact_volume() const { return DoHasExactVolume(); }
+  /// The volume in R^ambient_dimension(), 0 for a flat set. Throws InvalidArgument where there is
+  /// no exact form, or the set is one whose volume is not finite and not known to be infinite.
+  [[nodiscard]] double CalcVolume() const;
+  /// From points drawn evenly from the bounding box, until the standard deviation of the answer is
+  /// `desired_rel_accuracy` of it or `max_num_samples` are drawn. Throws InvalidArgument for a set
+  /// that is not bounded, an accuracy or number that is not positive.
+  [[nodiscard]] SampledVolume CalcVolumeViaSampling(RandomGenerator* generator,
+                                                    double desired_rel_accuracy = 1e-2,
+                                                    int max_num_samples = 10000) const;
 
   /// x in the set, as constraints; returns the new variables, if any, and the constraints.
   std::pair<VectorXDecisionVariable, std::vector<Binding<Constraint>>> AddPointInSetConstraints(
@@ -71,13 +105,26 @@ class SWITCHYARD_EXPORT ConvexSet {
   /// For a set that is assigned a new value: what was found of the old one is forgotten.
   void Changed(int dimension);
 
+  // What a class says of itself.
   [[nodiscard]] virtual std::unique_ptr<ConvexSet> DoClone() const = 0;
   [[nodiscard]] virtual ScaledSet DoScaled() const = 0;
+
+  // What it may know in closed form; what stands here is found from the scaled form. Sizes have
+  // been checked; dimension 0 does not come to DoSupport and DoNearestPoint, an empty set not to
+  // the latter.
   /// nullopt: found from the scaled form.
   [[nodiscard]] virtual std::optional<SetBox> DoBoundingBox() const { return std::nullopt; }
   [[nodiscard]] virtual std::optional<Eigen::VectorXd> DoMaybeGetPoint() const {
     return std::nullopt;
   }
+  [[nodiscard]] virtual std::optional<Eigen::VectorXd> DoMaybeGetFeasiblePoint() const;
+  [[nodiscard]] virtual bool DoIsBounded(Parallelism parallelism) const;
+  [[nodiscard]] virtual double DoViolation(const Eigen::VectorXd& x) const;
+  [[nodiscard]] virtual double DoSupport(const Eigen::VectorXd& direction) const;
+  [[nodiscard]] virtual Eigen::VectorXd DoNearestPoint(const Eigen::VectorXd& x) const;
+  [[nodiscard]] virtual bool DoHasExactVolume() const { return false; }
+  /// Only where DoHasExactVolume(); nullopt: not of this set.
+  [[nodiscard]] virtual std::optional<double> DoCalcVolume() const { return std::nullopt; }
 
  private:
   struct Known;  // what is computed once
@@ -100,9 +147,13 @@ class SWITCHYARD_EXPORT ConvexSetPointer {
   std::shared_ptr<const ConvexSet> set_;  // immutable, so that copies may share it
 };
 using ConvexSets = std::vector<ConvexSetPointer>;
+/// Of sets by value, and of pointers to sets.
 template <class... Sets>
-ConvexSets MakeConvexSets(const Sets&... sets) {
-  return {ConvexSetPointer(sets)...};
+ConvexSets MakeConvexSets(Sets&&... sets) {
+  ConvexSets all;
+  all.reserve(sizeof...(sets));
+  (all.emplace_back(std::forward<Sets>(sets)), ...);
+  return all;
 }
 
 }  // namespace switchyard

@@ -18,6 +18,8 @@ class SWITCHYARD_EXPORT Hyperrectangle final : public ConvexSet {
   [[nodiscard]] const Eigen::VectorXd& ub() const { return ub_; }
   /// Throws where a side is infinite.
   [[nodiscard]] Eigen::VectorXd Center() const;
+  /// Each coordinate evenly and by itself. Throws InvalidArgument where a side is infinite.
+  [[nodiscard]] Eigen::VectorXd UniformSample(RandomGenerator* generator) const;
   [[nodiscard]] HPolyhedron MakeHPolyhedron() const;
   [[nodiscard]] std::optional<Hyperrectangle> MaybeGetIntersection(
       const Hyperrectangle& other) const;
@@ -31,6 +33,16 @@ class SWITCHYARD_EXPORT Hyperrectangle final : public ConvexSet {
   [[nodiscard]] ScaledSet DoScaled() const override;
   [[nodiscard]] std::optional<SetBox> DoBoundingBox() const override;
   [[nodiscard]] std::optional<Eigen::VectorXd> DoMaybeGetPoint() const override;
+  [[nodiscard]] std::optional<Eigen::VectorXd> DoMaybeGetFeasiblePoint() const override;
+  [[nodiscard]] bool DoIsBounded(Parallelism /*parallelism*/) const override {
+    return lb_.allFinite() && ub_.allFinite();
+  }
+  [[nodiscard]] double DoSupport(const Eigen::VectorXd& direction) const override;
+  [[nodiscard]] Eigen::VectorXd DoNearestPoint(const Eigen::VectorXd& x) const override {
+    return x.cwiseMax(lb_).cwiseMin(ub_);
+  }
+  [[nodiscard]] bool DoHasExactVolume() const override { return true; }
+  [[nodiscard]] std::optional<double> DoCalcVolume() const override;
   Eigen::VectorXd lb_;
   Eigen::VectorXd ub_;
 };

@@ -21,6 +21,17 @@ class SWITCHYARD_EXPORT Point final : public ConvexSet {
   [[nodiscard]] ScaledSet DoScaled() const override;
   [[nodiscard]] std::optional<SetBox> DoBoundingBox() const override;
   [[nodiscard]] std::optional<Eigen::VectorXd> DoMaybeGetPoint() const override { return x_; }
+  [[nodiscard]] bool DoIsBounded(Parallelism /*parallelism*/) const override { return true; }
+  [[nodiscard]] double DoSupport(const Eigen::VectorXd& direction) const override {
+    return direction.dot(x_);
+  }
+  [[nodiscard]] Eigen::VectorXd DoNearestPoint(const Eigen::VectorXd& /*x*/) const override {
+    return x_;
+  }
+  [[nodiscard]] bool DoHasExactVolume() const override { return true; }
+  [[nodiscard]] std::optional<double> DoCalcVolume() const override {
+    return x_.size() > 0 ? 0.0 : 1.0;
+  }
   Eigen::VectorXd x_;
 };
 

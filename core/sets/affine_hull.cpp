@@ -1,0 +1,63 @@
+#include "core/sets/affine_hull.hpp"
+
+#include <Eigen/QR>
+#include <cmath>
+
+#include "core/sets/set_program.hpp"
+#include "switchyard/error.hpp"
+#include "switchyard/solve/solve.hpp"
+
+namespace switchyard {
+namespace {
+
+/// The step from p, with entries of at most 1, to a point of the set that is farthest along d.
+Eigen::VectorXd FarthestStep(const ConvexSet& set, const Eigen::VectorXd& p,
+                             const Eigen::VectorXd& d) {
+  const auto n = static_cast<int>(p.size());
+  MathematicalProgram program;
+  const VectorXDecisionVariable step = program.NewContinuousVariables(n, "step");
+  set.AddPointInNonnegativeScalingConstraints(&program, Eigen::MatrixXd::Identity(n, n), p,
+                                              Eigen::VectorXd(), 1, step, VariableList());
+  program.AddBoundingBoxConstraint(-1, 1, step);
+  program.AddLinearCost(-d, step);
+  const MathematicalProgramResult result = Solve(program);
+  if (!result.is_success()) CouldNotTell(set.Kind(), "the affine hull", result);
+  return result.GetSolution(step);
+}
+
+}  // namespace
+
+// Each direction that is orthogonal to all found so far either has a point of the set off the
+// hyperplane through p, and then the step there is a new direction of the hull, or the hull is
+// orthogonal to it; n directions in all.
+AffineHull AffineHullOf(const ConvexSet& set, double tol) {
+  Require(tol >= 0, "an affine hull needs a tolerance of at least 0, got ", tol);
+  const std::optional<Eigen::VectorXd> p = set.MaybeGetFeasiblePoint();
+  Require(p.has_value(), "an affine hull needs a set with a point, got an empty ", set.Kind());
+  const Eigen::Index n = p->size();
+  Eigen::MatrixXd found(n, 0);  // orthonormal: first those of the hull, then those across it
+  Eigen::MatrixXd across(n, 0);
+  const auto append = [](Eigen::MatrixXd& columns, const Eigen::VectorXd& column) {
+    columns.conservativeResize(Eigen::NoChange, columns.cols() + 1);
+    columns.rightCols(1) = column;
+  };
+  while (!set.MaybeGetPoint() && found.cols() + across.cols() < n) {
+    Eigen::MatrixXd all(n, found.cols() + across.cols());
+    all << found, across;
+    const Eigen::MatrixXd Q = all.cols() > 0 ? Eigen::MatrixXd(all.householderQr().householderQ())
+                                             : Eigen::MatrixXd(Eigen::MatrixXd::Identity(n, n));
+    const Eigen::VectorXd d = Q.col(all.cols());
+    Eigen::VectorXd step = FarthestStep(set, *p, d);
+    if (d.dot(step) <= tol) step = FarthestStep(set, *p, -d);
+    if (std::abs(d.dot(step)) <= tol) {
+      append(across, d);
+      continue;
+    }
+    // Twice, so that a short part across the others is orthogonal to rounding.
+    for (int pass = 0; pass < 2; ++pass) step -= all * (all.transpose() * step);
+    append(found, step.normalized());
+  }
+  return {*p, found};
+}
+
+}  // namespace switchyard
