@@ -1,15 +1,17 @@
-#include "switchyard/gcs/graph_of_convex_sets.hpp"
-
+// The graph as a container.
 #include <algorithm>
-#include <thread>
 
+#include "core/gcs/name_index.hpp"
 #include "switchyard/error.hpp"
+#include "switchyard/gcs/graph_of_convex_sets.hpp"
 #include "switchyard/model/new_ids.hpp"
+#include "switchyard/symbolic/variable_names.hpp"
 
 namespace switchyard {
 namespace {
 
-using TranscriptionSet = GraphOfConvexSets::TranscriptionSet;
+using Vertex = GraphOfConvexSets::Vertex;
+using Edge = GraphOfConvexSets::Edge;
 
 VectorXDecisionVariable Consecutive(Variable::Id first, int count) {
   VectorXDecisionVariable x(count);
@@ -17,61 +19,40 @@ VectorXDecisionVariable Consecutive(Variable::Id first, int count) {
   return x;
 }
 
-bool Among(Variable variable, const VectorXDecisionVariable& some) {
-  return std::find(some.begin(), some.end(), variable) != some.end();
+/// From a list by ascending id.
+void Erase(const Edge* edge, std::vector<Edge*>& edges) {
+  const auto place =
+      std::lower_bound(edges.begin(), edges.end(), edge,
+                       [](const Edge* a, const Edge* b) { return a->id() < b->id(); });
+  edges.erase(place);
 }
 
-template <class B>
-std::vector<B> Untagged(const std::vector<GraphOfConvexSets::Tagged<B>>& terms,
-                        TranscriptionSet in) {
-  std::vector<B> found;
-  for (const auto& term : terms) {
-    if (term.in.meets(in)) found.push_back(term.binding);
+template <class Kept, class Element>
+std::vector<Kept*> Valid(const std::vector<std::unique_ptr<Element>>& all, int count,
+                         const GraphOfConvexSets& graph) {
+  std::vector<Kept*> valid;
+  valid.reserve(static_cast<std::size_t>(count));
+  for (const auto& element : all) {
+    if (element != nullptr && graph.IsValid(*element)) valid.push_back(element.get());
   }
-  return found;
+  return valid;
 }
 
 }  // namespace
 
-// ---- Vertex ----
+// ---- Vertices and edges ----
 
-GraphOfConvexSets::Vertex::Vertex(VertexId id, std::shared_ptr<const ConvexSet> set,
-                                  std::string name)
-    : id_(id),
+GraphOfConvexSets::Vertex::Vertex(GraphOfConvexSets* graph, VertexId id,
+                                  std::shared_ptr<const ConvexSet> set, std::string name)
+    : graph_(graph),
+      id_(id),
       set_(std::move(set)),
       name_(std::move(name)),
       x_(Consecutive(NewVariableIds(set_->ambient_dimension()), set_->ambient_dimension())) {}
 
-Binding<Cost> GraphOfConvexSets::Vertex::AddCost(const Binding<Cost>& binding,
-                                                 TranscriptionSet in) {
-  for (const Variable v : binding.variables()) {
-    Require(Among(v, x_), binding.evaluator()->Name(), " at vertex ", name_,
-            " needs variables of its x, got the variable with id ", v.get_id());
-  }
-  costs_.push_back({binding, in});
-  return binding;
+void GraphOfConvexSets::Vertex::RefuseRemoved(const char* call) const {
+  Refuse("Vertex::", call, ": vertex ", name_, " was removed from its graph");
 }
-
-Binding<Constraint> GraphOfConvexSets::Vertex::AddConstraint(const Binding<Constraint>& binding,
-                                                             TranscriptionSet in) {
-  for (const Variable v : binding.variables()) {
-    Require(Among(v, x_), binding.evaluator()->Name(), " at vertex ", name_,
-            " needs variables of its x, got the variable with id ", v.get_id());
-  }
-  constraints_.push_back({binding, in});
-  return binding;
-}
-
-std::vector<Binding<Cost>> GraphOfConvexSets::Vertex::GetCosts(TranscriptionSet in) const {
-  return Untagged(costs_, in);
-}
-
-std::vector<Binding<Constraint>> GraphOfConvexSets::Vertex::GetConstraints(
-    TranscriptionSet in) const {
-  return Untagged(constraints_, in);
-}
-
-// ---- Edge ----
 
 GraphOfConvexSets::Edge::Edge(EdgeId id, Vertex* u, Vertex* v, std::string name)
     : id_(id),
@@ -81,193 +62,180 @@ GraphOfConvexSets::Edge::Edge(EdgeId id, Vertex* u, Vertex* v, std::string name)
       first_id_(NewVariableIds(1 + u->ambient_dimension() + v->ambient_dimension())) {}
 
 std::string GraphOfConvexSets::Edge::name() const {
-  return name_.empty() ? Text("(", u_->name(), ", ", v_->name(), ")") : name_;
+  return name_.empty() ? "(" + u_->name() + ", " + v_->name() + ")" : name_;
 }
 
-VectorXDecisionVariable GraphOfConvexSets::Edge::NewSlackVariables(int rows, const std::string&) {
-  Require(rows >= 0, "NewSlackVariables needs a number of rows, got ", rows);
+void GraphOfConvexSets::Edge::RefuseRemoved(const char* call) const {
+  Refuse("Edge::", call, ": edge ", name(), " was removed from its graph");
+}
+
+VectorXDecisionVariable GraphOfConvexSets::Edge::NewSlackVariables(int rows,
+                                                                   const std::string& name) {
+  Live("NewSlackVariables");
+  Require(rows >= 0, "NewSlackVariables of edge ", this->name(), " needs a number of rows, got ",
+          rows);
   const VectorXDecisionVariable added = Consecutive(NewVariableIds(rows), rows);
   VectorXDecisionVariable all(slacks_.size() + rows);
   all << slacks_, added;
   slacks_ = all;
+  u_->graph_->NameVariables(added, this->name() + "." + name);
   return added;
 }
 
-void GraphOfConvexSets::Edge::CheckVariables(const EvaluatorBase& evaluator,
-                                             const VectorXDecisionVariable& variables) const {
-  for (const Variable v : variables) {
-    Require(Among(v, xu()) || Among(v, xv()) || Among(v, slacks_), evaluator.Name(), " at edge ",
-            name(), " needs variables of xu, xv and its slacks, got the variable with id ",
-            v.get_id());
-  }
+void GraphOfConvexSets::Edge::AddPhiConstraint(bool phi_value) {
+  Live("AddPhiConstraint").phi_value_ = phi_value;
 }
 
-Binding<Cost> GraphOfConvexSets::Edge::AddCost(const Binding<Cost>& binding, TranscriptionSet in) {
-  CheckVariables(*binding.evaluator(), binding.variables());
-  costs_.push_back({binding, in});
-  return binding;
-}
-
-Binding<Constraint> GraphOfConvexSets::Edge::AddConstraint(const Binding<Constraint>& binding,
-                                                           TranscriptionSet in) {
-  CheckVariables(*binding.evaluator(), binding.variables());
-  constraints_.push_back({binding, in});
-  return binding;
-}
-
-std::vector<Binding<Cost>> GraphOfConvexSets::Edge::GetCosts(TranscriptionSet in) const {
-  return Untagged(costs_, in);
-}
-
-std::vector<Binding<Constraint>> GraphOfConvexSets::Edge::GetConstraints(
-    TranscriptionSet in) const {
-  return Untagged(constraints_, in);
+void GraphOfConvexSets::Edge::ClearPhiConstraints() {
+  Live("ClearPhiConstraints").phi_value_.reset();
 }
 
 // ---- Graph ----
 
+GraphOfConvexSets::GraphOfConvexSets() : names_(std::make_unique<Names>()) {}
 GraphOfConvexSets::~GraphOfConvexSets() = default;
 
-GraphOfConvexSets::Vertex* GraphOfConvexSets::AddVertex(const ConvexSet& set, std::string name) {
+Vertex* GraphOfConvexSets::AddVertex(const ConvexSet& set, std::string name) {
   return AddVertex(std::shared_ptr<const ConvexSet>(set.Clone()), std::move(name));
 }
 
-GraphOfConvexSets::Vertex* GraphOfConvexSets::AddVertex(std::shared_ptr<const ConvexSet> set,
-                                                        std::string name) {
-  Require(set != nullptr, "a vertex needs a set, got a null pointer");
-  const VertexId id{next_vertex_++};
-  if (name.empty()) name = Text("v", id.value);
-  std::unique_ptr<Vertex> vertex(new Vertex(id, std::move(set), std::move(name)));
-  return vertices_.emplace_hint(vertices_.end(), id, std::move(vertex))->second.get();
+Vertex* GraphOfConvexSets::AddVertex(std::shared_ptr<const ConvexSet> set, std::string name) {
+  const VertexId id{static_cast<int>(vertices_.size())};
+  if (name.empty()) name = "v" + std::to_string(id.value);
+  Require(set != nullptr, "vertex ", name, " needs a set, got a null pointer");
+  vertices_.push_back(
+      std::unique_ptr<Vertex>(new Vertex(this, id, std::move(set), std::move(name))));
+  ++num_vertices_;
+  Vertex* const vertex = vertices_.back().get();
+  NameVariables(vertex->x_, vertex->name_ + ".x");
+  return vertex;
 }
 
-GraphOfConvexSets::Edge* GraphOfConvexSets::AddEdge(Vertex* u, Vertex* v, std::string name) {
-  Require(u != nullptr && v != nullptr, "an edge needs two vertices, got a null pointer");
-  Require(IsValid(*u) && IsValid(*v), "an edge needs vertices of this graph; ",
-          (IsValid(*u) ? v : u)->name(), " is not of it");
-  const EdgeId id{next_edge_++};
-  std::unique_ptr<Edge> edge(new Edge(id, u, v, std::move(name)));
-  u->outgoing_.push_back(edge.get());
-  v->incoming_.push_back(edge.get());
-  return edges_.emplace_hint(edges_.end(), id, std::move(edge))->second.get();
+Edge* GraphOfConvexSets::AddEdge(Vertex* u, Vertex* v, std::string name) {
+  Require(u != nullptr && v != nullptr, "AddEdge needs two vertices, got a null pointer");
+  RequireValid(*u, "AddEdge");
+  RequireValid(*v, "AddEdge");
+  const EdgeId id{static_cast<int>(edges_.size())};
+  edges_.push_back(std::unique_ptr<Edge>(new Edge(id, u, v, std::move(name))));
+  ++num_edges_;
+  Edge* const edge = edges_.back().get();
+  u->outgoing_.push_back(edge);
+  v->incoming_.push_back(edge);
+  return edge;
 }
 
 void GraphOfConvexSets::RemoveVertex(Vertex* vertex) {
-  Require(vertex != nullptr && IsValid(*vertex), "RemoveVertex needs a vertex of this graph");
-  const auto touching = [&](const auto& entry) {
-    return &entry.second->u() == vertex || &entry.second->v() == vertex;
-  };
-  for (const auto& [id, edge] : edges_) {
-    if (!touching(std::pair<EdgeId, const std::unique_ptr<Edge>&>(id, edge))) continue;
-    std::erase(edge->u_->outgoing_, edge.get());
-    std::erase(edge->v_->incoming_, edge.get());
+  Require(vertex != nullptr, "RemoveVertex needs a vertex, got a null pointer");
+  RequireValid(*vertex, "RemoveVertex");
+  for (Edge* edge : vertex->outgoing_) {
+    if (edge->v_ != vertex) Erase(edge, edge->v_->incoming_);
+    Bury(*edge);
   }
-  std::erase_if(edges_, touching);
-  vertices_.erase(vertex->id());
+  for (Edge* edge : vertex->incoming_) {
+    if (edge->u_ == vertex) continue;  // a loop went with the outgoing ones
+    Erase(edge, edge->u_->outgoing_);
+    Bury(*edge);
+  }
+  names_->vertices.Forget(*vertex);
+  vertex->set_.reset();
+  vertex->costs_ = {};
+  vertex->constraints_ = {};
+  vertex->incoming_ = {};
+  vertex->outgoing_ = {};
+  --num_vertices_;
 }
 
 void GraphOfConvexSets::RemoveEdge(Edge* edge) {
-  Require(edge != nullptr && IsValid(*edge), "RemoveEdge needs an edge of this graph");
-  std::erase(edge->u_->outgoing_, edge);
-  std::erase(edge->v_->incoming_, edge);
-  edges_.erase(edge->id());
+  Require(edge != nullptr, "RemoveEdge needs an edge, got a null pointer");
+  RequireValid(*edge, "RemoveEdge");
+  Erase(edge, edge->u_->outgoing_);
+  Erase(edge, edge->v_->incoming_);
+  Bury(*edge);
 }
 
-const GraphOfConvexSets::Vertex* GraphOfConvexSets::GetVertexByName(const std::string& name) const {
-  for (const auto& [id, vertex] : vertices_) {
-    if (vertex->name() == name) return vertex.get();
-  }
-  return nullptr;
+void GraphOfConvexSets::Bury(Edge& edge) {
+  names_->edges.Forget(edge);
+  edge.removed_ = true;
+  edge.slacks_.resize(0);
+  edge.costs_ = {};
+  edge.constraints_ = {};
+  --num_edges_;
 }
 
-GraphOfConvexSets::Vertex* GraphOfConvexSets::GetMutableVertexByName(const std::string& name) {
+const Vertex* GraphOfConvexSets::GetVertexByName(const std::string& name) const {
+  const std::lock_guard lock(names_->mutex);
+  return names_->vertices.First(name, vertices_, *this);
+}
+
+Vertex* GraphOfConvexSets::GetMutableVertexByName(const std::string& name) {
   return const_cast<Vertex*>(GetVertexByName(name));
 }
 
-const GraphOfConvexSets::Edge* GraphOfConvexSets::GetEdgeByName(const std::string& name) const {
-  for (const auto& [id, edge] : edges_) {
-    if (edge->name() == name) return edge.get();
-  }
-  return nullptr;
+const Edge* GraphOfConvexSets::GetEdgeByName(const std::string& name) const {
+  const std::lock_guard lock(names_->mutex);
+  return names_->edges.First(name, edges_, *this);
 }
 
-GraphOfConvexSets::Edge* GraphOfConvexSets::GetMutableEdgeByName(const std::string& name) {
+Edge* GraphOfConvexSets::GetMutableEdgeByName(const std::string& name) {
   return const_cast<Edge*>(GetEdgeByName(name));
 }
 
-std::vector<GraphOfConvexSets::Vertex*> GraphOfConvexSets::Vertices() {
-  std::vector<Vertex*> all;
-  all.reserve(vertices_.size());
-  for (const auto& [id, vertex] : vertices_) all.push_back(vertex.get());
-  return all;
+std::vector<Vertex*> GraphOfConvexSets::Vertices() {
+  return Valid<Vertex>(vertices_, num_vertices_, *this);
 }
 
-std::vector<const GraphOfConvexSets::Vertex*> GraphOfConvexSets::Vertices() const {
-  std::vector<const Vertex*> all;
-  all.reserve(vertices_.size());
-  for (const auto& [id, vertex] : vertices_) all.push_back(vertex.get());
-  return all;
+std::vector<const Vertex*> GraphOfConvexSets::Vertices() const {
+  return Valid<const Vertex>(vertices_, num_vertices_, *this);
 }
 
-std::vector<GraphOfConvexSets::Edge*> GraphOfConvexSets::Edges() {
-  std::vector<Edge*> all;
-  all.reserve(edges_.size());
-  for (const auto& [id, edge] : edges_) all.push_back(edge.get());
-  return all;
-}
+std::vector<Edge*> GraphOfConvexSets::Edges() { return Valid<Edge>(edges_, num_edges_, *this); }
 
-std::vector<const GraphOfConvexSets::Edge*> GraphOfConvexSets::Edges() const {
-  std::vector<const Edge*> all;
-  all.reserve(edges_.size());
-  for (const auto& [id, edge] : edges_) all.push_back(edge.get());
-  return all;
+std::vector<const Edge*> GraphOfConvexSets::Edges() const {
+  return Valid<const Edge>(edges_, num_edges_, *this);
 }
 
 bool GraphOfConvexSets::IsValid(const Vertex& v) const {
-  const auto place = vertices_.find(v.id());
-  return place != vertices_.end() && place->second.get() == &v;
+  return v.graph_ == this && v.set_ != nullptr;
 }
 
-bool GraphOfConvexSets::IsValid(const Edge& e) const {
-  const auto place = edges_.find(e.id());
-  return place != edges_.end() && place->second.get() == &e;
+bool GraphOfConvexSets::IsValid(const Edge& e) const { return e.u_->graph_ == this && !e.removed_; }
+
+void GraphOfConvexSets::RequireValid(const Vertex& v, const char* caller) const {
+  if (IsValid(v)) return;
+  Refuse(caller, ": vertex ", v.name(),
+         v.graph_ == this ? " was removed from this graph" : " is not of this graph");
+}
+
+void GraphOfConvexSets::RequireValid(const Edge& e, const char* caller) const {
+  if (IsValid(e)) return;
+  Refuse(caller, ": edge ", e.name(),
+         e.u_->graph_ == this ? " was removed from this graph" : " is not of this graph");
 }
 
 void GraphOfConvexSets::ClearAllPhiConstraints() {
-  for (const auto& [id, edge] : edges_) edge->ClearPhiConstraints();
+  for (const auto& edge : edges_) {
+    if (edge != nullptr) edge->phi_value_.reset();
+  }
 }
 
-// Bindings name variables of their graph: each is bound anew to the clone's.
-std::unique_ptr<GraphOfConvexSets> GraphOfConvexSets::Clone() const {
-  auto clone = std::make_unique<GraphOfConvexSets>();
-  std::unordered_map<Variable, Variable> twin;
-  std::unordered_map<const Vertex*, Vertex*> vertex_of;
-  const auto pair_up = [&twin](const VectorXDecisionVariable& from,
-                               const VectorXDecisionVariable& to) {
-    for (Eigen::Index i = 0; i < from.size(); ++i) twin[from[i]] = to[i];
-  };
-  const auto take_terms = [&twin](const auto& from, auto& to) {
-    for (const auto& term : from) {
-      VectorXDecisionVariable variables = term.binding.variables();
-      for (Variable& v : variables) v = twin.at(v);
-      to.push_back({{term.binding.evaluator(), variables}, term.in});
+// ---- Names of variables ----
+
+void GraphOfConvexSets::NameVariables(const VectorXDecisionVariable& x, const std::string& base) {
+  if (x.size() == 0) return;
+  const auto names =
+      std::make_shared<const NameBlock>(NameBlock::Shaped(base, static_cast<int>(x.size()), 0));
+  RegisterNames(x[0].get_id(), names);
+  variable_names_.push_back(names);
+}
+
+// Flows have no entries in the table of names: there are many, and none stands in a term.
+std::string GraphOfConvexSets::NameOfPlaceholder(Variable variable) const {
+  for (const auto& edge : edges_) {
+    if (edge != nullptr && edge->first_id_ == variable.get_id()) {
+      return "phi of edge " + edge->name();
     }
-  };
-  for (const auto& [id, vertex] : vertices_) {
-    Vertex* copy = clone->AddVertex(vertex->set_, vertex->name_);
-    vertex_of[vertex.get()] = copy;
-    pair_up(vertex->x_, copy->x_);
-    take_terms(vertex->costs_, copy->costs_);
-    take_terms(vertex->constraints_, copy->constraints_);
   }
-  for (const auto& [id, edge] : edges_) {
-    Edge* copy = clone->AddEdge(vertex_of.at(edge->u_), vertex_of.at(edge->v_), edge->name_);
-    pair_up(edge->slacks_, copy->NewSlackVariables(static_cast<int>(edge->slacks_.size())));
-    copy->phi_value_ = edge->phi_value_;
-    take_terms(edge->costs_, copy->costs_);
-    take_terms(edge->constraints_, copy->constraints_);
-  }
-  return clone;
+  return NameOf(variable);
 }
 
 }  // namespace switchyard

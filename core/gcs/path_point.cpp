@@ -14,13 +14,6 @@ using Edge = GraphOfConvexSets::Edge;
 
 std::size_t At(std::int32_t i) { return static_cast<std::size_t>(i); }
 
-/// phi times an end's point.
-Eigen::VectorXd EndOf(const ConvexSet& set, std::int32_t first, double phi,
-                      const std::vector<double>& x) {
-  if (first < 0) return phi * *set.MaybeGetPoint();
-  return Eigen::Map<const Eigen::VectorXd>(x.data() + first, set.ambient_dimension());
-}
-
 /// Values by variable, put in order at the end.
 class Values {
  public:
@@ -63,7 +56,7 @@ PathPoints PathIn(const PrunedGraph& graph, const GcsTranscription& transcriptio
                   const std::vector<double>& x) {
   std::vector<std::int32_t> next(graph.vertices.size(), -1);
   for (std::size_t a = 0; a < graph.edges.size(); ++a) {
-    if (x[At(transcription.variables(a).phi)] > 0.5) {
+    if (x[At(transcription.flow(a))] > 0.5) {
       next[At(graph.tail[a])] = static_cast<std::int32_t>(a);
     }
   }
@@ -73,20 +66,22 @@ PathPoints PathIn(const PrunedGraph& graph, const GcsTranscription& transcriptio
     const std::int32_t arc = next[At(at)];
     if (arc < 0 || path.edges.size() > graph.edges.size()) return {};
     const Edge& edge = *graph.edges[At(arc)];
-    const EdgeVariables& variables = transcription.variables(At(arc));
-    const double phi = x[At(variables.phi)];
+    const double phi = x[At(transcription.flow(At(arc)))];
+    const std::int32_t slack = transcription.slack(At(arc));
     path.edges.push_back(&edge);
-    path.points.emplace_back(EndOf(edge.u().set(), variables.y, phi, x) / phi);
-    at = graph.head[At(arc)];
-    if (at == graph.target) {
-      path.points.emplace_back(EndOf(edge.v().set(), variables.z, phi, x) / phi);
+    path.slacks.emplace_back(edge.slacks().size());
+    for (Eigen::Index i = 0; i < edge.slacks().size(); ++i) {
+      path.slacks.back()[i] = x[At(slack) + static_cast<std::size_t>(i)] / phi;
     }
+    path.points.emplace_back(transcription.TailOf(At(arc), x) / phi);
+    at = graph.head[At(arc)];
+    if (at == graph.target) path.points.emplace_back(transcription.HeadOf(At(arc), x) / phi);
   }
   return path;
 }
 
 void SetPathPoint(const GraphOfConvexSets& graph, const PathPoints& path,
-                  const MathematicalProgramResult* slacks, MathematicalProgramResult& result) {
+                  MathematicalProgramResult& result) {
   std::unordered_map<const Vertex*, const Eigen::VectorXd*> point;
   std::unordered_map<const Edge*, std::size_t> place;
   for (std::size_t k = 0; k < path.edges.size(); ++k) {
@@ -109,9 +104,8 @@ void SetPathPoint(const GraphOfConvexSets& graph, const PathPoints& path,
     } else {
       values.SetEdge(*e, 1, path.points[found->second], path.points[found->second + 1]);
     }
-    for (const Variable s : e->slacks()) {
-      const bool known = found != place.end() && slacks != nullptr && slacks->Knows(s);
-      values.SetSlack(s, known ? slacks->GetSolution(s) : 0);
+    for (Eigen::Index i = 0; i < e->slacks().size(); ++i) {
+      values.SetSlack(e->slacks()[i], found == place.end() ? 0 : path.slacks[found->second][i]);
     }
   }
   values.Write(result);
@@ -136,13 +130,12 @@ void SetFlowPoint(const GraphOfConvexSets& graph, const PrunedGraph& pruned,
     double phi = 0;
     Eigen::VectorXd y = Eigen::VectorXd::Zero(edge.u().ambient_dimension());
     Eigen::VectorXd z = Eigen::VectorXd::Zero(edge.v().ambient_dimension());
-    const std::int32_t slack = arc_of[e] >= 0 ? transcription.variables(At(arc_of[e])).slack : -1;
+    const std::int32_t slack = arc_of[e] >= 0 ? transcription.slack(At(arc_of[e])) : -1;
     if (arc_of[e] >= 0) {
       const auto a = At(arc_of[e]);
-      const EdgeVariables& variables = transcription.variables(a);
-      phi = x[At(variables.phi)];
-      y = EndOf(edge.u().set(), variables.y, phi, x);
-      z = EndOf(edge.v().set(), variables.z, phi, x);
+      phi = x[At(transcription.flow(a))];
+      y = transcription.TailOf(a, x);
+      z = transcription.HeadOf(a, x);
       flow[At(pruned.tail[a])] += phi;
       sum[At(pruned.tail[a])] += y;
       if (pruned.head[a] == pruned.target) {

@@ -8,10 +8,11 @@
 
 namespace switchyard {
 
-/// A path and one point for each of its vertices.
+/// A path, one point for each of its vertices, and the slacks of each of its edges.
 struct PathPoints {
   std::vector<const GraphOfConvexSets::Edge*> edges;
   std::vector<Eigen::VectorXd> points;
+  std::vector<Eigen::VectorXd> slacks;
 };
 
 /// Follows the flows above 1/2 in a point of the transcribed problem; none where they form no path.
@@ -20,7 +21,7 @@ PathPoints PathIn(const PrunedGraph& graph, const GcsTranscription& transcriptio
 
 /// phi = 1 on the path, 0 elsewhere; vertices off it have no solution.
 void SetPathPoint(const GraphOfConvexSets& graph, const PathPoints& path,
-                  const MathematicalProgramResult* slacks, MathematicalProgramResult& result);
+                  MathematicalProgramResult& result);
 
 /// phi, phi x_u and phi x_v of a point of the transcribed problem; x_v = sum_out y / sum_out phi
 /// (in of z at the target) where flow passes.

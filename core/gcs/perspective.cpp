@@ -6,8 +6,8 @@
 
 #include "core/linalg/semidefinite_factor.hpp"
 #include "core/sets/scaled_constraint.hpp"
-#include "core/sets/scaled_rows.hpp"
 #include "switchyard/error.hpp"
+#include "switchyard/sets/scaled_rows.hpp"
 
 namespace switchyard {
 namespace {

@@ -31,15 +31,23 @@ Perspective PerspectiveOf(const Constraint& constraint);
 /// Perspectives by evaluator: many edges share one.
 class Perspectives {
  public:
+  /// Of its coefficients as they are now. Keeps the evaluator, so that its address means it.
   template <class Evaluator>
   const Perspective& Of(const std::shared_ptr<Evaluator>& evaluator) {
-    auto& entry = known_[evaluator.get()];
-    if (entry == nullptr) entry = std::make_unique<Perspective>(PerspectiveOf(*evaluator));
-    return *entry;
+    Known& known = known_[evaluator.get()];
+    if (known.evaluator == nullptr || known.version != evaluator->version()) {
+      known = {evaluator, evaluator->version(), PerspectiveOf(*evaluator)};
+    }
+    return known.perspective;
   }
 
  private:
-  std::unordered_map<const EvaluatorBase*, std::unique_ptr<Perspective>> known_;
+  struct Known {
+    std::shared_ptr<const EvaluatorBase> evaluator;
+    std::uint64_t version = 0;
+    Perspective perspective;
+  };
+  std::unordered_map<const EvaluatorBase*, Known> known_;
 };
 
 }  // namespace switchyard

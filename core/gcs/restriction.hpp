@@ -13,10 +13,16 @@ namespace switchyard {
 std::vector<const GraphOfConvexSets::Vertex*> VerticesOf(
     const std::vector<const GraphOfConvexSets::Edge*>& edges);
 
-/// One x for each vertex, its set, and the terms tagged for the restriction, verbatim. A vertex
-/// that the path visits twice has one point.
+/// One x for each vertex, its set, and the terms tagged for the restriction, verbatim. A vertex or
+/// an edge that the path visits twice stands once.
 std::unique_ptr<MathematicalProgram> RestrictionOf(
     const std::vector<const GraphOfConvexSets::Vertex*>& vertices,
     const std::vector<const GraphOfConvexSets::Edge*>& edges);
+
+/// The start that a result of the graph gives the program of a path: points of vertices, slacks of
+/// edges over phi; NaN where it has none.
+Eigen::VectorXd StartFrom(const MathematicalProgramResult& result,
+                          const MathematicalProgram& program,
+                          const std::vector<const GraphOfConvexSets::Edge*>& edges);
 
 }  // namespace switchyard

@@ -1,8 +1,7 @@
 #include "core/gcs/transcription.hpp"
 
 #include <algorithm>
-
-#include "switchyard/error.hpp"
+#include <cmath>
 
 namespace switchyard {
 namespace {
@@ -11,295 +10,381 @@ std::size_t At(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
-GcsTranscription::GcsTranscription(const PrunedGraph& graph, Transcription as)
-    : graph_(graph), as_(as), edges_(graph.edges.size()) {
-  builder_.flags = SY_PROBLEM_CONVEX;
-  for (std::size_t arc = 0; arc < edges_.size(); ++arc) WriteEdge(arc);
+GcsTranscription::GcsTranscription(const PrunedGraph& graph, Transcription as, bool transitions,
+                                   TermBlocks* blocks)
+    : graph_(graph),
+      own_blocks_(as),
+      blocks_of_(blocks != nullptr ? *blocks : own_blocks_),
+      plan_(graph, transitions),
+      point_(graph.vertices.size()),
+      edges_(graph.edges.size()),
+      transitions_(plan_.all().size()) {
+  for (std::size_t a = 0; a < edges_.size(); ++a) {
+    for (const std::int32_t v : {graph.tail[a], graph.head[a]}) {
+      if (!point_[At(v)]) point_[At(v)] = graph.vertices[At(v)]->set().MaybeGetPoint();
+    }
+  }
+  num_blocks_ = static_cast<std::int32_t>(edges_.size());
+  for (std::size_t a = 0; a < edges_.size(); ++a) AddEdgeVariables(a);
+  for (std::size_t k = 0; k < transitions_.size(); ++k) AddTransitionVariables(k);
+  for (std::size_t a = 0; a < edges_.size(); ++a) WriteEdge(a);
+  for (std::size_t k = 0; k < transitions_.size(); ++k) WriteTransition(k);
   block_ = -1;
   WriteCoupling();
-  CloseBlock();
-  problem_ = Problem(builder_.FinishOnce());
+  Finish();
   WriteHints();
 }
 
-// What was added since the last block belongs to this one.
-void GcsTranscription::CloseBlock() {
-  block_of_x_.resize(builder_.q.size(), block_);
-  block_of_row_.resize(builder_.row_lower.size(), block_);
-  block_of_cone_.resize(builder_.cones.size(), block_);
+// ---- variables ----
+
+std::int32_t GcsTranscription::AddVariables(std::int32_t count) {
+  const auto first = static_cast<std::int32_t>(data_.q.size());
+  const std::size_t all = data_.q.size() + At(count);
+  data_.q.resize(all, 0.0);
+  data_.x_lower.resize(all, -kInfinity);
+  data_.x_upper.resize(all, kInfinity);
+  data_.integer.resize(all, 0);
+  block_of_x_.resize(all, block_);
+  return first;
 }
 
-void GcsTranscription::WriteEdge(std::size_t arc) {
-  const GraphOfConvexSets::Edge& edge = *graph_.edges[arc];
-  block_ = static_cast<std::int32_t>(arc);
-  AddEdgeVariables(arc);
-  const EdgeVariables& at = edges_[arc];
-  if (at.y >= 0) WriteMembership(edge.u().set(), at.phi, at.y);
-  if (at.z >= 0) WriteMembership(edge.v().set(), at.phi, at.z);
-  squares_.clear();
-  square_columns_.clear();
-  const bool ends = graph_.head[arc] == graph_.target;
-  WriteTerms(edge, edge.costs(), arc);
-  WriteTerms(edge.u(), edge.u().costs(), arc);
-  if (ends) WriteTerms(edge.v(), edge.v().costs(), arc);
-  WriteTerms(edge, edge.constraints(), arc);
-  WriteTerms(edge.u(), edge.u().constraints(), arc);
-  if (ends) WriteTerms(edge.v(), edge.v().constraints(), arc);
-  WriteSquares(at.phi);
-  CloseBlock();
-}
-
-void GcsTranscription::AddEdgeVariables(std::size_t arc) {
-  const GraphOfConvexSets::Edge& edge = *graph_.edges[arc];
-  EdgeVariables& at = edges_[arc];
-  at.phi = builder_.AddVariables(1);
-  builder_.x_lower[At(at.phi)] = edge.phi_value() == true ? 1 : 0;
-  builder_.x_upper[At(at.phi)] = 1;
-  builder_.integer[At(at.phi)] = 1;
-  at.y = AddPoint(edge.u().set());
-  at.z = AddPoint(edge.v().set());
-  if (edge.slacks().size() > 0) {
-    at.slack = builder_.AddVariables(static_cast<std::int32_t>(edge.slacks().size()));
-  }
-}
-
-std::int32_t GcsTranscription::AddPoint(const ConvexSet& set) {
-  if (set.MaybeGetPoint().has_value()) return -1;
+std::int32_t GcsTranscription::AddPoint(std::int32_t vertex) {
+  if (PointAt(vertex)) return -1;
+  const ConvexSet& set = graph_.vertices[At(vertex)]->set();
   const SetBox& box = set.bounding_box();
-  const std::int32_t first = builder_.AddVariables(set.ambient_dimension());
+  const std::int32_t first = AddVariables(set.ambient_dimension());
   for (int i = 0; i < set.ambient_dimension(); ++i) {
-    builder_.x_lower[At(first + i)] = std::min(0.0, box.lower[i]);
-    builder_.x_upper[At(first + i)] = std::max(0.0, box.upper[i]);
+    data_.x_lower[At(first + i)] = std::min(0.0, box.lower[i]);
+    data_.x_upper[At(first + i)] = std::max(0.0, box.upper[i]);
   }
   return first;
 }
 
-void GcsTranscription::WriteMembership(const ConvexSet& set, std::int32_t phi, std::int32_t first) {
-  const ScaledSet& scaled = set.scaled();
-  columns_.assign(1, {phi, 1});
-  for (std::int32_t i = 0; i < scaled.dim; ++i) columns_.push_back({first + i, 1});
-  const std::int32_t aux = scaled.num_aux > 0 ? builder_.AddVariables(scaled.num_aux) : 0;
-  for (std::int32_t i = 0; i < scaled.num_aux; ++i) columns_.push_back({aux + i, 1});
-  WriteCone(scaled);
-}
-
-/// Those that count in this transcription.
-template <class Owner, class Terms>
-void GcsTranscription::WriteTerms(const Owner& owner, const Terms& terms, std::size_t arc) {
-  const auto perspective_of = [&](const auto& evaluator) -> const Perspective& {
-    try {
-      return perspectives_.Of(evaluator);
-    } catch (const InvalidArgument& why) {
-      Refuse("at ", owner.name(), ": ", why.what(),
-             "; a term for the restriction alone may be any");
+void GcsTranscription::AddEnd(std::int32_t vertex, std::int32_t scale,
+                              std::span<const FixedCoordinate> fixed) {
+  const std::int32_t n = DimensionAt(vertex);
+  if (PointAt(vertex)) {
+    for (std::int32_t i = 0; i < n; ++i) ends_.push_back({scale, (*PointAt(vertex))[i]});
+    return;
+  }
+  const SetBox& box = graph_.vertices[At(vertex)]->set().bounding_box();
+  auto next = fixed.begin();
+  for (std::int32_t i = 0; i < n; ++i) {
+    if (next != fixed.end() && next->place == i) {
+      ends_.push_back({scale, next++->value});
+      continue;
     }
-  };
-  for (const auto& term : terms) {
-    if (!term.in.contains(as_)) continue;
-    WriteTerm(perspective_of(term.binding.evaluator()), term.binding.variables(), arc);
+    const std::int32_t j = AddVariables(1);
+    data_.x_lower[At(j)] = std::min(0.0, box.lower[i]);
+    data_.x_upper[At(j)] = std::max(0.0, box.upper[i]);
+    ends_.push_back({j, 1});
   }
 }
 
-GcsTranscription::Column GcsTranscription::ColumnOf(Variable variable, std::size_t arc) const {
+void GcsTranscription::AddEdgeVariables(std::size_t arc) {
+  block_ = static_cast<std::int32_t>(arc);
   const GraphOfConvexSets::Edge& edge = *graph_.edges[arc];
+  EdgeVariables& at = edges_[arc];
+  at.phi = AddVariables(1);
+  data_.x_lower[At(at.phi)] = edge.phi_value() == true ? 1 : 0;
+  data_.x_upper[At(at.phi)] = 1;
+  data_.integer[At(at.phi)] = 1;
+  const std::vector<FixedCoordinate>& fixed = FixedOf(arc);
+  const std::int32_t of_u = DimensionAt(graph_.tail[arc]);
+  const auto of_v = std::find_if(fixed.begin(), fixed.end(),
+                                 [&](const FixedCoordinate& c) { return c.place >= of_u; });
+  std::vector<FixedCoordinate> at_v(of_v, fixed.end());
+  for (FixedCoordinate& c : at_v) c.place -= of_u;
+  at.tail = static_cast<std::int32_t>(ends_.size());
+  AddEnd(graph_.tail[arc], at.phi, {fixed.begin(), of_v});
+  at.head = static_cast<std::int32_t>(ends_.size());
+  AddEnd(graph_.head[arc], at.phi, at_v);
+  if (edge.slacks().size() > 0) {
+    at.slack = AddVariables(static_cast<std::int32_t>(edge.slacks().size()));
+  }
+}
+
+const std::vector<FixedCoordinate>& GcsTranscription::FixedOf(std::size_t arc) {
+  return blocks_of_.Fixed(*graph_.edges[arc], graph_.head[arc] == graph_.target);
+}
+
+void GcsTranscription::AddTransitionVariables(std::size_t k) {
+  const Transition& t = plan_.all()[k];
+  if (t.copy != Transition::Copy::kOwn) return;
+  block_ = transitions_[k].block = num_blocks_++;
+  transitions_[k].lambda = AddVariables(1);
+  data_.x_lower[At(transitions_[k].lambda)] = 0;
+  data_.x_upper[At(transitions_[k].lambda)] = 1;
+  if (!PointAt(t.vertex)) transitions_[k].w = AddPoint(t.vertex);
+}
+
+std::span<const GcsTranscription::Column> GcsTranscription::Tail(std::size_t arc) const {
+  return std::span(ends_).subspan(At(edges_[arc].tail), At(DimensionAt(graph_.tail[arc])));
+}
+
+std::span<const GcsTranscription::Column> GcsTranscription::Head(std::size_t arc) const {
+  return std::span(ends_).subspan(At(edges_[arc].head), At(DimensionAt(graph_.head[arc])));
+}
+
+GcsTranscription::Column GcsTranscription::CopyOf(const Transition& t, std::size_t k,
+                                                  std::int32_t i) const {
+  switch (t.copy) {
+    case Transition::Copy::kOut:
+      return Tail(At(t.out))[At(i)];
+    case Transition::Copy::kIn:
+      return Head(At(t.in))[At(i)];
+    default:
+      if (PointAt(t.vertex)) return {transitions_[k].lambda, (*PointAt(t.vertex))[i]};
+      return {transitions_[k].w + i, 1};
+  }
+}
+
+std::int32_t GcsTranscription::ScaleOf(const Transition& t, std::size_t k) const {
+  switch (t.copy) {
+    case Transition::Copy::kOut:
+      return edges_[At(t.out)].phi;
+    case Transition::Copy::kIn:
+      return edges_[At(t.in)].phi;
+    default:
+      return transitions_[k].lambda;
+  }
+}
+
+// ---- blocks ----
+
+void GcsTranscription::WriteEdge(std::size_t arc) {
+  block_ = static_cast<std::int32_t>(arc);
+  const GraphOfConvexSets::Edge& edge = *graph_.edges[arc];
+  const std::int32_t u = graph_.tail[arc], v = graph_.head[arc];
   const EdgeVariables& at = edges_[arc];
-  const auto among = [&](const VectorXDecisionVariable& x) {
-    const Variable::Id offset = x.size() > 0 ? variable.get_id() - x[0].get_id() : -1;
-    return offset >= 0 && offset < x.size() ? static_cast<std::int32_t>(offset) : -1;
+  const auto place = [&](std::span<const Column> end) {
+    columns_.insert(columns_.end(), end.begin(), end.end());
   };
-  const auto of_end = [&](const GraphOfConvexSets::Vertex& v, std::int32_t first,
-                          std::int32_t i) -> Column {
-    if (first >= 0) return {first + i, 1};
-    return {at.phi, (*v.set().MaybeGetPoint())[i]};
-  };
-  if (const std::int32_t i = among(edge.xu()); i >= 0) return of_end(edge.u(), at.y, i);
-  if (const std::int32_t i = among(edge.xv()); i >= 0) return of_end(edge.v(), at.z, i);
-  for (Eigen::Index i = 0; i < edge.slacks().size(); ++i) {
-    if (edge.slacks()[i] == variable) return {at.slack + static_cast<std::int32_t>(i), 1};
+  if (plan_.OwnsTail(arc)) {
+    columns_.assign(1, {at.phi, 1});
+    place(Tail(arc));
+    if (!PointAt(u)) WriteBlock(blocks_of_.Membership(edge.u()));
+    WriteBlock(blocks_of_.Terms(edge.u()));
   }
-  return {at.phi, 1};  // AddCost and AddConstraint let nothing else in
+  if (plan_.OwnsHead(arc)) {
+    columns_.assign(1, {at.phi, 1});
+    place(Head(arc));
+    if (!PointAt(v)) WriteBlock(blocks_of_.Membership(edge.v()));
+    if (v == graph_.target || plan_.At(v)) WriteBlock(blocks_of_.Terms(edge.v()));
+  }
+  columns_.assign(1, {at.phi, 1});
+  place(Tail(arc));
+  place(Head(arc));
+  for (std::int32_t i = 0; i < edge.slacks().size(); ++i) columns_.push_back({at.slack + i, 1});
+  WriteBlock(blocks_of_.Terms(edge));
+  WriteSquares(at.phi);
 }
 
-void GcsTranscription::WriteTerm(const Perspective& term, const VectorXDecisionVariable& variables,
-                                 std::size_t arc) {
-  columns_.assign(1, {edges_[arc].phi, 1});
-  for (const Variable v : variables) columns_.push_back(ColumnOf(v, arc));
-  if (term.S.rows > 0) {
-    squares_.push_back({&term.S, square_columns_.size()});
-    square_columns_.insert(square_columns_.end(), columns_.begin() + 1, columns_.end());
-  }
-  const std::int32_t aux = term.cone.num_aux > 0 ? builder_.AddVariables(term.cone.num_aux) : 0;
-  for (std::int32_t i = 0; i < term.cone.num_aux; ++i) columns_.push_back({aux + i, 1});
-  for (std::size_t j = 0; j < term.cost.size(); ++j) {
-    builder_.q[At(columns_[j].variable)] += term.cost[j] * columns_[j].factor;
-  }
-  WriteCone(term.cone);
+void GcsTranscription::WriteTransition(std::size_t k) {
+  const Transition& t = plan_.all()[k];
+  if (t.copy != Transition::Copy::kOwn) return;
+  block_ = transitions_[k].block;
+  columns_.assign(1, {transitions_[k].lambda, 1});
+  for (std::int32_t i = 0; i < DimensionAt(t.vertex); ++i) columns_.push_back(CopyOf(t, k, i));
+  const GraphOfConvexSets::Vertex& v = *graph_.vertices[At(t.vertex)];
+  if (!PointAt(t.vertex)) WriteBlock(blocks_of_.Membership(v));
+  WriteBlock(blocks_of_.Terms(v));
+  WriteSquares(transitions_[k].lambda);
 }
 
-/// The rows and cones with columns_ for (t, x, w).
-void GcsTranscription::WriteCone(const ScaledSet& cone) {
-  if (cone.A.rows > 0) {
-    const std::int32_t row = builder_.AddRows(cone.A.rows);
-    std::copy(cone.lower.begin(), cone.lower.end(), builder_.row_lower.begin() + row);
-    std::copy(cone.upper.begin(), cone.upper.end(), builder_.row_upper.begin() + row);
-    for (std::size_t j = 0; j < columns_.size(); ++j) {
-      for (auto k = At(cone.A.start[j]); k < At(cone.A.start[j + 1]); ++k) {
-        const double value = cone.A.value[k] * columns_[j].factor;
-        if (value != 0) builder_.A.Add(row + cone.A.row[k], columns_[j].variable, value);
+template <class Take>
+void GcsTranscription::EachEntry(const PlacedRows& rows, std::size_t row, const TermBlock& block,
+                                 std::int32_t own, Take&& take) const {
+  for (auto k = At(rows.start[row]); k < At(rows.start[row + 1]); ++k) {
+    const std::int32_t place = rows.place[k];
+    if (place >= block.num_places) {
+      take(own + place - block.num_places, rows.value[k]);
+    } else {
+      const Column& column = columns_[At(place)];
+      take(column.variable, rows.value[k] * column.factor);
+    }
+  }
+}
+
+/// The block of all variables of the row that was begun last, if they have but one.
+std::int32_t GcsTranscription::BlockOfRow(const RowMatrix& matrix) const {
+  const auto columns = matrix.Columns();
+  const bool within = std::all_of(columns.begin(), columns.end(),
+                                  [&](std::int32_t j) { return block_of_x_[At(j)] == block_; });
+  return within ? block_ : -1;
+}
+
+// Over the places as they are filled.
+void GcsTranscription::WriteBlock(const TermBlock& block) {
+  const std::int32_t own = block.num_own > 0 ? AddVariables(block.num_own) : 0;
+  std::copy(block.own_lower.begin(), block.own_lower.end(), data_.x_lower.begin() + own);
+  std::copy(block.own_upper.begin(), block.own_upper.end(), data_.x_upper.begin() + own);
+  for (std::size_t j = 0; j < block.cost.size(); ++j) {
+    if (block.cost[j] == 0) continue;
+    const auto place = static_cast<std::int32_t>(j);
+    const Column column =
+        place < block.num_places ? columns_[j] : Column{own + place - block.num_places, 1};
+    data_.q[At(column.variable)] += block.cost[j] * column.factor;
+  }
+  WriteRows(block, own);
+  WriteCones(block, own);
+  for (std::size_t i = 0; i < At(block.squares.count()); ++i) {
+    EachEntry(block.squares, i, block, own, [&](std::int32_t j, double value) {
+      squares_.push_back({j, value});
+    });
+    square_end_.push_back(squares_.size());
+  }
+}
+
+// What fixed coordinates leave of a row may be of the scale alone: then it holds, but for rounding,
+// or it says that the scale is 0.
+void GcsTranscription::WriteRows(const TermBlock& block, std::int32_t own) {
+  constexpr double kRounding = 1e-12;
+  const std::int32_t scale = columns_.front().variable;
+  for (std::size_t i = 0; i < At(block.rows.count()); ++i) {
+    BeginRow(block.lower[i], block.upper[i]);
+    double size = 0;
+    EachEntry(block.rows, i, block, own, [&](std::int32_t j, double value) {
+      A_.Add(j, value);
+      size = std::max(size, std::abs(value));
+    });
+    const auto columns = A_.Columns();
+    if (columns.empty() || (columns.size() == 1 && columns[0] == scale)) {
+      const double value = columns.empty() ? 0 : A_.Values()[0];
+      const bool holds = (block.upper[i] == kInfinity || value <= kRounding * size) &&
+                         (block.lower[i] == -kInfinity || value >= -kRounding * size);
+      if (holds) {
+        DropRow();
+        continue;
       }
     }
-  }
-  if (cone.cones.empty()) return;
-  const auto row = static_cast<std::int32_t>(builder_.g.size());
-  for (const sy_cone& one : cone.cones) builder_.AddCone(one);
-  for (std::size_t j = 0; j < columns_.size(); ++j) {
-    for (auto k = At(cone.F.start[j]); k < At(cone.F.start[j + 1]); ++k) {
-      const double value = cone.F.value[k] * columns_[j].factor;
-      if (value != 0) builder_.F.Add(row + cone.F.row[k], columns_[j].variable, value);
-    }
+    block_of_row_.push_back(BlockOfRow(A_));
   }
 }
 
-// 2 phi l >= |S_1 x_1|^2 + |S_2 x_2|^2 + ... : one cone for all squares of an edge.
-void GcsTranscription::WriteSquares(std::int32_t phi) {
-  if (squares_.empty()) return;
-  std::int32_t rows = 2;
-  for (const Square& square : squares_) rows += square.S->rows;
-  const std::int32_t epigraph = builder_.AddVariables(1);
-  builder_.q[At(epigraph)] = 1;
-  const std::int32_t first = builder_.AddCone({SY_CONE_ROTATED, rows, 0});
-  builder_.F.Add(first, phi, 1);
-  builder_.F.Add(first + 1, epigraph, 1);
-  std::int32_t row = first + 2;
-  for (const Square& square : squares_) {
-    const Csc& S = *square.S;
-    for (std::size_t j = 0; j < At(S.cols); ++j) {
-      const Column& column = square_columns_[square.first + j];
-      for (auto k = At(S.start[j]); k < At(S.start[j + 1]); ++k) {
-        const double value = S.value[k] * column.factor;
-        if (value != 0) builder_.F.Add(row + S.row[k], column.variable, value);
-      }
+void GcsTranscription::WriteCones(const TermBlock& block, std::int32_t own) {
+  std::size_t row = 0;
+  for (const sy_cone& cone : block.cones) {
+    std::int32_t of = block_;
+    for (std::int32_t i = 0; i < cone.dim; ++i, ++row) {
+      F_.Begin();
+      EachEntry(block.cone_rows, row, block, own,
+                [&](std::int32_t j, double value) { F_.Add(j, value); });
+      if (BlockOfRow(F_) != block_) of = -1;
     }
-    row += S.rows;
+    data_.cones.push_back(cone);
+    block_of_cone_.push_back(of);
   }
 }
 
-// Flow, degree and spatial rows. A vertex without edges has none; a point's spatial rows follow
-// from its flow.
+// 2 t l >= |S_1 x_1|^2 + |S_2 x_2|^2 + ... : one cone for all squares of a block.
+void GcsTranscription::WriteSquares(std::int32_t scale) {
+  if (square_end_.empty()) return;
+  const std::int32_t epigraph = AddVariables(1);
+  data_.q[At(epigraph)] = 1;
+  std::int32_t of = block_;
+  F_.Begin();
+  F_.Add(scale, 1);
+  F_.Begin();
+  F_.Add(epigraph, 1);
+  std::size_t next = 0;
+  for (const std::size_t end : square_end_) {
+    F_.Begin();
+    for (; next < end; ++next) F_.Add(squares_[next].variable, squares_[next].factor);
+    if (BlockOfRow(F_) != block_) of = -1;
+  }
+  data_.cones.push_back({SY_CONE_ROTATED, 2 + static_cast<std::int32_t>(square_end_.size()), 0});
+  block_of_cone_.push_back(of);
+  squares_.clear();
+  square_end_.clear();
+}
+
+// ---- coupling ----
+
+void GcsTranscription::BeginRow(double lower, double upper) {
+  data_.row_lower.push_back(lower);
+  data_.row_upper.push_back(upper);
+  A_.Begin();
+}
+
+void GcsTranscription::DropRow() {
+  data_.row_lower.pop_back();
+  data_.row_upper.pop_back();
+  A_.Drop();
+}
+
 void GcsTranscription::WriteCoupling() {
-  const std::size_t count = graph_.vertices.size();
-  std::vector<std::int32_t> degree(count, 0), flow(count, -1), most(count, -1), spatial(count, -1);
-  for (std::size_t a = 0; a < edges_.size(); ++a) {
-    ++degree[At(graph_.tail[a])];
-    ++degree[At(graph_.head[a])];
-  }
-  for (std::size_t v = 0; v < count; ++v) {
-    if (degree[v] == 0) continue;
-    const bool source = static_cast<std::int32_t>(v) == graph_.source;
-    const bool target = static_cast<std::int32_t>(v) == graph_.target;
-    flow[v] = builder_.AddRows(1);
-    const double net = source ? 1 : target ? -1 : 0;
-    builder_.row_lower[At(flow[v])] = builder_.row_upper[At(flow[v])] = net;
-    if (source || target) continue;
-    most[v] = builder_.AddRows(1);
-    builder_.row_upper[At(most[v])] = 1;
-    const ConvexSet& set = graph_.vertices[v]->set();
-    if (set.MaybeGetPoint().has_value() || set.ambient_dimension() == 0) continue;
-    spatial[v] = builder_.AddRows(set.ambient_dimension());
-    for (std::int32_t i = 0; i < set.ambient_dimension(); ++i) {
-      builder_.row_lower[At(spatial[v] + i)] = builder_.row_upper[At(spatial[v] + i)] = 0;
+  const Leaving out(graph_.arcs()), in(Reversed(graph_.arcs()));
+  for (std::int32_t v = 0; v < static_cast<std::int32_t>(graph_.vertices.size()); ++v) {
+    if (out.Of(v).empty() && in.Of(v).empty()) continue;
+    if (plan_.At(v)) {
+      WriteTransitionFlow(v, in.Of(v), out.Of(v));
+    } else {
+      WriteFlow(v, in.Of(v), out.Of(v));
     }
+    if (v == graph_.source || v == graph_.target) continue;
+    BeginRow(-kInfinity, 1);
+    for (const std::int32_t a : out.Of(v)) A_.Add(edges_[At(a)].phi, 1);
   }
-  for (std::size_t a = 0; a < edges_.size(); ++a) {
-    const auto u = At(graph_.tail[a]);
-    const auto v = At(graph_.head[a]);
-    builder_.A.Add(flow[u], edges_[a].phi, 1);
-    builder_.A.Add(flow[v], edges_[a].phi, -1);
-    if (most[u] >= 0) builder_.A.Add(most[u], edges_[a].phi, 1);
-    const auto points = [&](std::int32_t first_row, const ConvexSet& set, std::int32_t first,
-                            double sign) {
-      for (std::int32_t i = 0; first_row >= 0 && i < set.ambient_dimension(); ++i) {
-        builder_.A.Add(first_row + i, first + i, sign);
-      }
-    };
-    points(spatial[u], graph_.vertices[u]->set(), edges_[a].y, 1);
-    points(spatial[v], graph_.vertices[v]->set(), edges_[a].z, -1);
+  block_of_row_.resize(data_.row_lower.size(), -1);
+}
+
+// Of flow and, between arcs in and out, of points; a point's spatial rows follow from its flow.
+void GcsTranscription::WriteFlow(std::int32_t vertex, std::span<const std::int32_t> in,
+                                 std::span<const std::int32_t> out) {
+  const double net = vertex == graph_.source ? 1 : vertex == graph_.target ? -1 : 0;
+  BeginRow(net, net);
+  for (const std::int32_t a : out) A_.Add(edges_[At(a)].phi, 1);
+  for (const std::int32_t a : in) A_.Add(edges_[At(a)].phi, -1);
+  if (net != 0 || PointAt(vertex)) return;
+  for (std::size_t i = 0; i < At(DimensionAt(vertex)); ++i) {
+    BeginRow(0, 0);
+    for (const std::int32_t a : out) {
+      A_.Add(Tail(At(a))[i].variable, Tail(At(a))[i].factor);
+    }
+    for (const std::int32_t a : in) A_.Add(Head(At(a))[i].variable, -Head(At(a))[i].factor);
   }
 }
 
-const sy_set* GcsTranscription::RecordOf(const ConvexSet& set) {
-  const auto [place, fresh] = record_of_.try_emplace(&set, nullptr);
-  if (!fresh) return place->second;
-  const ScaledSet& scaled = set.scaled();
-  SetRecord& r = records_.emplace_back();
-  r.At = Transpose(scaled.A.View());
-  r.Ft = Transpose(scaled.F.View());
-  r.at = r.At.View();
-  r.ft = r.Ft.View();
-  r.record = {};
-  r.record.size = sizeof r.record;
-  r.record.dim = scaled.dim;
-  r.record.num_aux = scaled.num_aux;
-  r.record.num_rows = scaled.A.rows;
-  r.record.num_cones = static_cast<std::int32_t>(scaled.cones.size());
-  r.record.num_cone_rows = scaled.F.rows;
-  r.record.At = &r.at;
-  r.record.row_lower = scaled.lower.data();
-  r.record.row_upper = scaled.upper.data();
-  r.record.Ft = &r.ft;
-  r.record.cones = scaled.cones.data();
-  return place->second = &r.record;
+void GcsTranscription::WriteTransitionFlow(std::int32_t vertex, std::span<const std::int32_t> in,
+                                           std::span<const std::int32_t> out) {
+  const bool is_point = PointAt(vertex).has_value();
+  for (const std::int32_t a : in) {
+    if (plan_.OwnsHead(At(a))) continue;
+    WriteSum(plan_.From(At(a)), edges_[At(a)].phi,
+             is_point ? std::span<const Column>() : Head(At(a)));
+  }
+  for (const std::int32_t a : out) {
+    if (plan_.OwnsTail(At(a))) continue;
+    WriteSum(plan_.To(At(a)), edges_[At(a)].phi,
+             is_point ? std::span<const Column>() : Tail(At(a)));
+  }
 }
 
-/// A column for each coordinate of each arc's tail, or head: the variable, or phi times the point.
-void GcsTranscription::WritePoints(bool tails, Csc& matrix, sy_csc& view) {
-  matrix = Csc(problem_.data().num_vars, 0);
-  for (std::size_t a = 0; a < edges_.size(); ++a) {
-    const GraphOfConvexSets::Edge& edge = *graph_.edges[a];
-    const ConvexSet& set = (tails ? edge.u() : edge.v()).set();
-    const std::int32_t first = tails ? edges_[a].y : edges_[a].z;
-    const std::optional<Eigen::VectorXd> point = set.MaybeGetPoint();
-    for (std::int32_t i = 0; i < set.ambient_dimension(); ++i) {
-      matrix.row.push_back(first >= 0 ? first + i : edges_[a].phi);
-      matrix.value.push_back(first >= 0 ? 1 : (*point)[i]);
-      matrix.start.push_back(static_cast<std::int32_t>(matrix.row.size()));
+// An arc's flow and the point at its end as the sum of transitions'.
+void GcsTranscription::WriteSum(std::span<const std::int32_t> transitions, std::int32_t flow,
+                                std::span<const Column> end) {
+  BeginRow(0, 0);
+  for (const std::int32_t k : transitions) A_.Add(ScaleOf(plan_.all()[At(k)], At(k)), 1);
+  A_.Add(flow, -1);
+  for (std::size_t i = 0; i < end.size(); ++i) {
+    BeginRow(0, 0);
+    for (const std::int32_t k : transitions) {
+      const Column copy = CopyOf(plan_.all()[At(k)], At(k), static_cast<std::int32_t>(i));
+      A_.Add(copy.variable, copy.factor);
     }
+    A_.Add(end[i].variable, -end[i].factor);
   }
-  matrix.cols = static_cast<std::int32_t>(matrix.start.size()) - 1;
-  view = matrix.View();
 }
 
-void GcsTranscription::WriteHints() {
-  const auto count = static_cast<std::int32_t>(edges_.size());
-  for (const EdgeVariables& edge : edges_) flow_.push_back(edge.phi);
-  arcs_.resize(edges_.size());
-  for (std::int32_t a = 0; a < count; ++a) arcs_[At(a)] = a;
-  for (const GraphOfConvexSets::Vertex* v : graph_.vertices) {
-    dim_.push_back(v->ambient_dimension());
-    sets_.push_back(nullptr);
-  }
-  for (std::size_t a = 0; a < edges_.size(); ++a) {
-    for (const std::int32_t v : {graph_.tail[a], graph_.head[a]}) {
-      if (sets_[At(v)] == nullptr) sets_[At(v)] = RecordOf(graph_.vertices[At(v)]->set());
-    }
-  }
-  WritePoints(true, tail_point_, paths_.tail_point);
-  WritePoints(false, head_point_, paths_.head_point);
-  blocks_ = {sizeof blocks_,        count,  block_of_x_.data(), block_of_row_.data(),
-             block_of_cone_.data(), nullptr};
-  paths_.size = sizeof paths_;
-  paths_.num_vertices = static_cast<std::int32_t>(graph_.vertices.size());
-  paths_.num_arcs = count;
-  paths_.source = graph_.source;
-  paths_.target = graph_.target;
-  paths_.tail = graph_.tail.data();
-  paths_.head = graph_.head.data();
-  paths_.flow = paths_.scale = flow_.data();
-  paths_.arc_in = paths_.arc_out = arcs_.data();
-  paths_.dim = dim_.data();
-  paths_.set = sets_.data();
-  hints_ = {{"sy.blocks/1", &blocks_}, {"sy.paths/1", &paths_}, {nullptr, nullptr}};
-  problem_.Change([this](ProblemData& d) { d.hints = hints_.data(); });
+void GcsTranscription::Finish() {
+  data_.flags = SY_PROBLEM_CONVEX;
+  data_.num_vars = static_cast<std::int32_t>(data_.q.size());
+  data_.P = Csc(data_.num_vars, data_.num_vars);
+  data_.A = A_.Take(data_.num_vars);
+  data_.g.assign(At(F_.rows()), 0.0);
+  data_.F = F_.Take(data_.num_vars);
+  problem_ = Problem(std::move(data_));
 }
 
 }  // namespace switchyard

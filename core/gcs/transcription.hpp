@@ -4,28 +4,22 @@
 
 #include <cstdint>
 #include <deque>
+#include <optional>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
-#include "core/gcs/perspective.hpp"
+#include "core/gcs/fixed_ends.hpp"
 #include "core/gcs/pruning.hpp"
-#include "core/problem/builder.hpp"
+#include "core/gcs/term_block.hpp"
+#include "core/gcs/transitions.hpp"
+#include "core/problem/row_matrix.hpp"
 #include "switchyard/hints.h"
 
 namespace switchyard {
 
-/// An edge's part of the problem: phi, then y = phi x_u and z = phi x_v, then slacks. An end whose
-/// set is a point has no variables: it is phi times the point.
-struct EdgeVariables {
-  std::int32_t phi = 0;
-  std::int32_t y = -1;  // the first; -1: a point
-  std::int32_t z = -1;
-  std::int32_t slack = -1;
-};
-
 /// The program of a pruned graph, lean: no rows for two-cycles, linear costs in the objective, one
-/// rotated cone for the squares of an edge, nothing for edges that are on no path. Triplets go
-/// straight into the builder that lowering uses.
+/// rotated cone for the squares of a block, nothing for edges that are on no path.
 ///
 ///   min   sum of the perspectives of costs at (phi_e, y_e, z_e)
 ///   flow      out - in = 1 at the source, -1 at the target, 0 elsewhere
@@ -34,27 +28,52 @@ struct EdgeVariables {
 ///   block e   y_e in phi_e X_u, z_e in phi_e X_v, the edge's own constraints and those of u (of v
 ///             where v is the target)
 ///
-/// Bounds of y, z are the sets' boxes, hulled with 0: implied. Stays in place while a backend holds
-/// the problem.
+/// and at vertices that count transitions (e, f), instead of flow and spatial rows,
+///   block ef  w_ef in lambda_ef X_v, the terms of v
+///   flow      phi_e = sum_f lambda_ef, z_e = sum_f w_ef;  phi_f = sum_e lambda_ef, y_f = sum_e
+///   w_ef
+/// where the only transition from e, or to f, has no copy of its own: it is z_e, or y_f.
+/// Coordinates that have but one value have no variable: they are phi times it. Bounds of y, z and
+/// w are the sets' boxes, hulled with 0: implied. Stays in place while a backend holds the problem.
 class GcsTranscription {
  public:
   using Transcription = GraphOfConvexSets::Transcription;
 
-  /// Throws InvalidArgument, naming it, for a term that has no perspective.
-  GcsTranscription(const PrunedGraph& graph, Transcription as);
+  /// `transitions`: may vertices count them? `blocks`: of the same transcription, kept between
+  /// graphs that share terms; nullptr: none. Throws InvalidArgument, naming it, for a term that has
+  /// no perspective.
+  GcsTranscription(const PrunedGraph& graph, Transcription as, bool transitions = true,
+                   TermBlocks* blocks = nullptr);
   GcsTranscription(const GcsTranscription&) = delete;
   GcsTranscription& operator=(const GcsTranscription&) = delete;
 
   [[nodiscard]] const Problem& problem() const { return problem_; }
-  [[nodiscard]] const EdgeVariables& variables(std::size_t arc) const { return edges_[arc]; }
+  /// The variable of an arc's flow, and the first of its slacks; -1: it has none.
+  [[nodiscard]] std::int32_t flow(std::size_t arc) const { return edges_[arc].phi; }
+  [[nodiscard]] std::int32_t slack(std::size_t arc) const { return edges_[arc].slack; }
+  /// phi x_u and phi x_v at a point of the problem.
+  [[nodiscard]] Eigen::VectorXd TailOf(std::size_t arc, const std::vector<double>& x) const;
+  [[nodiscard]] Eigen::VectorXd HeadOf(std::size_t arc, const std::vector<double>& x) const;
+  /// What the blocks of some arcs, and of transitions between them, cost at a point.
+  [[nodiscard]] double CostOf(const std::vector<std::int32_t>& arcs,
+                              const std::vector<double>& x) const;
   /// Who solves and hears of paths; may be set until the problem is loaded.
   [[nodiscard]] sy_paths& paths() { return paths_; }
 
  private:
-  /// The value of a column of a term: factor times a variable; no variable: factor is 0.
+  /// Factor times variable.
   struct Column {
     std::int32_t variable;
     double factor;
+  };
+  struct EdgeVariables {
+    std::int32_t phi = -1;
+    std::int32_t slack = -1;
+    std::int32_t tail = 0, head = 0;  // the first of its coordinates in ends_
+  };
+  struct TransitionVariables {
+    std::int32_t lambda = -1, w = -1;  // -1: not its own
+    std::int32_t block = -1;
   };
   struct SetRecord {
     Csc At, Ft;
@@ -62,41 +81,69 @@ class GcsTranscription {
     sy_set record;
   };
 
-  void WriteEdge(std::size_t arc);
+  std::int32_t AddVariables(std::int32_t count);
+  std::int32_t AddPoint(std::int32_t vertex);
   void AddEdgeVariables(std::size_t arc);
-  std::int32_t AddPoint(const ConvexSet& set);
-  void WriteMembership(const ConvexSet& set, std::int32_t phi, std::int32_t first);
-  template <class Owner, class Terms>
-  void WriteTerms(const Owner& owner, const Terms& terms, std::size_t arc);
-  void WriteTerm(const Perspective& term, const VectorXDecisionVariable& variables,
-                 std::size_t arc);
-  void WriteCone(const ScaledSet& cone);
-  void WriteSquares(std::int32_t phi);
-  [[nodiscard]] Column ColumnOf(Variable variable, std::size_t arc) const;
+  void AddEnd(std::int32_t vertex, std::int32_t scale, std::span<const FixedCoordinate> fixed);
+  void AddTransitionVariables(std::size_t k);
+  [[nodiscard]] const std::vector<FixedCoordinate>& FixedOf(std::size_t arc);
+  void WriteEdge(std::size_t arc);
+  void WriteTransition(std::size_t k);
+  void WriteBlock(const TermBlock& block);
+  void WriteRows(const TermBlock& block, std::int32_t own);
+  void WriteCones(const TermBlock& block, std::int32_t own);
+  template <class Take>
+  void EachEntry(const PlacedRows& rows, std::size_t row, const TermBlock& block, std::int32_t own,
+                 Take&& take) const;
+  void WriteSquares(std::int32_t scale);
+  [[nodiscard]] std::int32_t BlockOfRow(const RowMatrix& matrix) const;
+  void BeginRow(double lower, double upper);
+  void DropRow();
   void WriteCoupling();
-  void WriteSpatial(std::int32_t vertex, const std::vector<std::int32_t>& first_row);
-  void CloseBlock();
+  void WriteFlow(std::int32_t vertex, std::span<const std::int32_t> in,
+                 std::span<const std::int32_t> out);
+  void WriteTransitionFlow(std::int32_t vertex, std::span<const std::int32_t> in,
+                           std::span<const std::int32_t> out);
+  void WriteSum(std::span<const std::int32_t> transitions, std::int32_t flow,
+                std::span<const Column> end);
+  void Finish();
   void WriteHints();
-  void WritePoints(bool tails, Csc& matrix, sy_csc& view);
+  void WritePoints(bool tails, Csc& matrix, sy_csc& view) const;
+  [[nodiscard]] static Eigen::VectorXd ValueOf(std::span<const Column> end,
+                                               const std::vector<double>& x);
   const sy_set* RecordOf(const ConvexSet& set);
 
+  /// phi times an arc's end point, by coordinate.
+  [[nodiscard]] std::span<const Column> Tail(std::size_t arc) const;
+  [[nodiscard]] std::span<const Column> Head(std::size_t arc) const;
+  [[nodiscard]] std::int32_t DimensionAt(std::int32_t vertex) const {
+    return graph_.vertices[static_cast<std::size_t>(vertex)]->ambient_dimension();
+  }
+  [[nodiscard]] Column CopyOf(const Transition& t, std::size_t k, std::int32_t i) const;
+  [[nodiscard]] std::int32_t ScaleOf(const Transition& t, std::size_t k) const;
+  [[nodiscard]] const std::optional<Eigen::VectorXd>& PointAt(std::int32_t vertex) const {
+    return point_[static_cast<std::size_t>(vertex)];
+  }
+
   const PrunedGraph& graph_;
-  Transcription as_;
-  ProblemBuilder builder_;
-  Perspectives perspectives_;
+  TermBlocks own_blocks_;
+  TermBlocks& blocks_of_;
+  TransitionPlan plan_;
+  std::vector<std::optional<Eigen::VectorXd>> point_;  // of each vertex whose set is one
   std::vector<EdgeVariables> edges_;
-  std::vector<Column> columns_;  // of the term at hand: t, x, w
-  struct Square {
-    const Csc* S;
-    std::size_t first;  // of its columns in square_columns_
-  };
-  std::vector<Square> squares_;  // of the edge at hand
-  std::vector<Column> square_columns_;
+  std::vector<Column> ends_;
+  std::vector<TransitionVariables> transitions_;
+
+  ProblemData data_;
+  RowMatrix A_, F_;
+  std::vector<Column> columns_;          // of the places of the block at hand
+  std::vector<Column> squares_;          // of the block at hand, row after row
+  std::vector<std::size_t> square_end_;  // of each row
 
   Problem problem_;
-  std::int32_t block_ = 0;
+  std::int32_t block_ = -1, num_blocks_ = 0;
   std::vector<std::int32_t> block_of_x_, block_of_row_, block_of_cone_;
-  std::vector<std::int32_t> flow_, arcs_, dim_;
+  std::vector<std::int32_t> flow_, scale_, arc_in_, arc_out_, dim_;
   Csc tail_point_, head_point_;
   std::deque<SetRecord> records_;
   std::unordered_map<const ConvexSet*, const sy_set*> record_of_;

@@ -14,8 +14,10 @@ namespace {
 using Transcription = GraphOfConvexSets::Transcription;
 
 struct Written {
-  explicit Written(const Grid& grid, Transcription as = Transcription::kRelaxation)
-      : pruned(Prune(grid.graph, grid.source(), grid.target(), true)), program(pruned, as) {}
+  explicit Written(const Grid& grid, Transcription as = Transcription::kRelaxation,
+                   bool transitions = true)
+      : pruned(Prune(grid.graph, grid.source(), grid.target(), true)),
+        program(pruned, as, transitions) {}
   [[nodiscard]] const ProblemData& data() const { return program.problem().data(); }
 
   PrunedGraph pruned;
@@ -31,7 +33,7 @@ const Record& HintOf(const ProblemData& d, const std::string& id) {
 
 TEST(Transcription, HasNoRowsThatItDoesNotNeed) {
   const Grid grid(3, EdgeCost::kLinear, 1);
-  const Written w(grid);
+  const Written w(grid, Transcription::kRelaxation, false);
   // 20 useful edges, 7 boxes: a linear cost has neither variables nor rows.
   std::int32_t ends = 0;
   for (std::size_t a = 0; a < w.pruned.edges.size(); ++a) {
@@ -61,7 +63,7 @@ TEST(Transcription, WritesTheSquaresOfAnEdgeInOneCone) {
 TEST(Transcription, SaysTheTruthInItsBlocks) {
   for (const EdgeCost kind : {EdgeCost::kL1, EdgeCost::kL2, EdgeCost::kSquared}) {
     const Grid grid(3, kind, 2, true);
-    const Written w(grid);
+    const Written w(grid, Transcription::kRelaxation, false);
     const ProblemData& d = w.data();
     const auto& blocks = HintOf<sy_blocks>(d, "sy.blocks/1");
     const auto& paths = HintOf<sy_paths>(d, "sy.paths/1");
@@ -109,22 +111,27 @@ std::vector<double> PointOf(const Written& w,
   for (std::size_t k = 0; k < path.size(); ++k) {
     const auto place = std::find(w.pruned.edges.begin(), w.pruned.edges.end(), path[k]);
     const auto a = static_cast<std::size_t>(place - w.pruned.edges.begin());
-    const EdgeVariables& v = w.program.variables(a);
     for (std::size_t j = 0; j < x.size(); ++j) {
       if (blocks.x[j] == static_cast<std::int32_t>(a)) x[j] = epigraph;
     }
-    x[static_cast<std::size_t>(v.phi)] = 1;
-    for (int i = 0; i < 2; ++i) {
-      if (v.y >= 0) x[static_cast<std::size_t>(v.y + i)] = points[k][i];
-      if (v.z >= 0) x[static_cast<std::size_t>(v.z + i)] = points[k + 1][i];
-    }
+    const auto& paths = HintOf<sy_paths>(w.data(), "sy.paths/1");
+    const std::int32_t flow = w.program.flow(a);
+    const auto put = [&](const sy_csc& of, const Eigen::VectorXd& point) {
+      for (int i = 0; i < 2; ++i) {
+        const std::int32_t j = of.row[of.start[2 * a + static_cast<std::size_t>(i)]];
+        if (j != flow) x[static_cast<std::size_t>(j)] = point[i];
+      }
+    };
+    put(paths.tail_point, points[k]);
+    put(paths.head_point, points[k + 1]);
+    x[static_cast<std::size_t>(flow)] = 1;
   }
   return x;
 }
 
 TEST(Transcription, HoldsAtAPathWithPointsInItsSetsAndNowhereElse) {
   const Grid grid(3, EdgeCost::kL2, 3);
-  const Written w(grid, Transcription::kMIP);
+  const Written w(grid, Transcription::kMIP, false);
   for (const auto& path : SimplePaths(grid.source(), grid.target())) {
     std::vector<Eigen::VectorXd> points = {*grid.source().set().MaybeGetPoint()};
     for (const auto* edge : path) points.push_back(*edge->v().set().MaybeGetFeasiblePoint());
@@ -138,15 +145,17 @@ TEST(Transcription, HoldsAtAPathWithPointsInItsSetsAndNowhereElse) {
 
 TEST(Transcription, BoxesHoldWhatTheRowsImply) {
   const Grid grid(3, EdgeCost::kL2, 3, true);
-  const Written w(grid);
+  const Written w(grid, Transcription::kRelaxation, false);
   const ProblemData& d = w.data();
   for (std::size_t a = 0; a < w.pruned.edges.size(); ++a) {
-    const EdgeVariables& v = w.program.variables(a);
-    if (v.y < 0) continue;
+    const auto& paths = HintOf<sy_paths>(d, "sy.paths/1");
     const SetBox& box = w.pruned.edges[a]->u().set().bounding_box();
     for (int i = 0; i < 2; ++i) {
-      EXPECT_LE(d.x_lower[static_cast<std::size_t>(v.y + i)], std::min(0.0, box.lower[i]));
-      EXPECT_GE(d.x_upper[static_cast<std::size_t>(v.y + i)], std::max(0.0, box.upper[i]));
+      const std::int32_t j =
+          paths.tail_point.row[paths.tail_point.start[2 * a + static_cast<std::size_t>(i)]];
+      if (j == w.program.flow(a)) continue;  // phi times the only value
+      EXPECT_LE(d.x_lower[static_cast<std::size_t>(j)], std::min(0.0, box.lower[i]));
+      EXPECT_GE(d.x_upper[static_cast<std::size_t>(j)], std::max(0.0, box.upper[i]));
     }
   }
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -31,7 +32,34 @@ struct ShortestPath {
   std::vector<std::string> subsolvers;
   int edges_before = 0;  // preprocessing
   int edges_after = 0;
+  int cycle_rounds = 0;  // times that a mixed-integer program was solved again without its cycles
 };
+
+/// A graph that is searched again and again: what its sets, costs and constraints come to in a
+/// program is written once. Between two searches anything may change: source and target, phi
+/// constraints, coefficients and bounds (by their evaluators), terms, vertices and edges; what is
+/// the same is not written again. Not thread-safe. The graph outlives it.
+class SWITCHYARD_EXPORT ShortestPathSearch {
+ public:
+  explicit ShortestPathSearch(const GraphOfConvexSets& graph, Host& host = Host::Default());
+  ShortestPathSearch(const ShortestPathSearch&) = delete;
+  ShortestPathSearch& operator=(const ShortestPathSearch&) = delete;
+  ~ShortestPathSearch();
+
+  /// What is found is a value, also that there is no path. Throws InvalidArgument where a vertex is
+  /// not of the graph, or a term cannot be transcribed.
+  ShortestPath Find(const GraphOfConvexSets::Vertex& source,
+                    const GraphOfConvexSets::Vertex& target,
+                    const GraphOfConvexSetsOptions& options = {});
+
+ private:
+  struct Written;
+  const GraphOfConvexSets& graph_;
+  Host& host_;
+  std::unique_ptr<Written> written_;
+};
+
+/// One search.
 
 SWITCHYARD_EXPORT ShortestPath FindShortestPath(const GraphOfConvexSets& graph,
                                                 const GraphOfConvexSets::Vertex& source,

@@ -1,0 +1,124 @@
+// What a transcription says of its own structure.
+#include "core/gcs/transcription.hpp"
+
+namespace switchyard {
+namespace {
+
+std::size_t At(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+}  // namespace
+
+const sy_set* GcsTranscription::RecordOf(const ConvexSet& set) {
+  const auto [place, fresh] = record_of_.try_emplace(&set, nullptr);
+  if (!fresh) return place->second;
+  const ScaledSet& scaled = set.scaled();
+  SetRecord& r = records_.emplace_back();
+  r.At = Transpose(scaled.A.View());
+  r.Ft = Transpose(scaled.F.View());
+  r.at = r.At.View();
+  r.ft = r.Ft.View();
+  r.record = {};
+  r.record.size = sizeof r.record;
+  r.record.dim = scaled.dim;
+  r.record.num_aux = scaled.num_aux;
+  r.record.num_rows = scaled.A.rows;
+  r.record.num_cones = static_cast<std::int32_t>(scaled.cones.size());
+  r.record.num_cone_rows = scaled.F.rows;
+  r.record.At = &r.at;
+  r.record.row_lower = scaled.lower.data();
+  r.record.row_upper = scaled.upper.data();
+  r.record.Ft = &r.ft;
+  r.record.cones = scaled.cones.data();
+  return place->second = &r.record;
+}
+
+/// A column for each coordinate of each arc's tail, or head.
+void GcsTranscription::WritePoints(bool tails, Csc& matrix, sy_csc& view) const {
+  matrix = Csc(problem_.data().num_vars, 0);
+  for (std::size_t a = 0; a < edges_.size(); ++a) {
+    for (const Column& column : tails ? Tail(a) : Head(a)) {
+      matrix.row.push_back(column.variable);
+      matrix.value.push_back(column.factor);
+      matrix.start.push_back(static_cast<std::int32_t>(matrix.row.size()));
+    }
+  }
+  matrix.cols = static_cast<std::int32_t>(matrix.start.size()) - 1;
+  view = matrix.View();
+}
+
+Eigen::VectorXd GcsTranscription::TailOf(std::size_t arc, const std::vector<double>& x) const {
+  return ValueOf(Tail(arc), x);
+}
+
+Eigen::VectorXd GcsTranscription::HeadOf(std::size_t arc, const std::vector<double>& x) const {
+  return ValueOf(Head(arc), x);
+}
+
+Eigen::VectorXd GcsTranscription::ValueOf(std::span<const Column> end,
+                                          const std::vector<double>& x) {
+  Eigen::VectorXd value(static_cast<Eigen::Index>(end.size()));
+  for (std::size_t i = 0; i < end.size(); ++i) {
+    value[static_cast<Eigen::Index>(i)] = end[i].factor * x[At(end[i].variable)];
+  }
+  return value;
+}
+
+double GcsTranscription::CostOf(const std::vector<std::int32_t>& arcs,
+                                const std::vector<double>& x) const {
+  std::vector<std::uint8_t> among(edges_.size(), 0);
+  for (const std::int32_t a : arcs) among[At(a)] = 1;
+  double cost = 0;
+  for (std::size_t j = 0; j < block_of_x_.size(); ++j) {
+    const std::int32_t block = block_of_x_[j];
+    const bool counts =
+        block >= 0 && among[At(arc_in_[At(block)])] != 0 && among[At(arc_out_[At(block)])] != 0;
+    if (counts) cost += problem_.data().q[j] * x[j];
+  }
+  return cost;
+}
+
+void GcsTranscription::WriteHints() {
+  const auto count = static_cast<std::int32_t>(edges_.size());
+  for (std::int32_t a = 0; a < count; ++a) {
+    flow_.push_back(edges_[At(a)].phi);
+    arc_in_.push_back(a);
+  }
+  scale_ = flow_;
+  arc_out_ = arc_in_;
+  for (std::size_t k = 0; k < transitions_.size(); ++k) {
+    if (transitions_[k].block < 0) continue;
+    scale_.push_back(transitions_[k].lambda);
+    arc_in_.push_back(plan_.all()[k].in);
+    arc_out_.push_back(plan_.all()[k].out);
+  }
+  for (const GraphOfConvexSets::Vertex* v : graph_.vertices) {
+    dim_.push_back(v->ambient_dimension());
+    sets_.push_back(nullptr);
+  }
+  for (std::size_t a = 0; a < edges_.size(); ++a) {
+    for (const std::int32_t v : {graph_.tail[a], graph_.head[a]}) {
+      if (sets_[At(v)] == nullptr) sets_[At(v)] = RecordOf(graph_.vertices[At(v)]->set());
+    }
+  }
+  WritePoints(true, tail_point_, paths_.tail_point);
+  WritePoints(false, head_point_, paths_.head_point);
+  blocks_ = {sizeof blocks_,       num_blocks_,           block_of_x_.data(),
+             block_of_row_.data(), block_of_cone_.data(), nullptr};
+  paths_.size = sizeof paths_;
+  paths_.num_vertices = static_cast<std::int32_t>(graph_.vertices.size());
+  paths_.num_arcs = count;
+  paths_.source = graph_.source;
+  paths_.target = graph_.target;
+  paths_.tail = graph_.tail.data();
+  paths_.head = graph_.head.data();
+  paths_.flow = flow_.data();
+  paths_.scale = scale_.data();
+  paths_.arc_in = arc_in_.data();
+  paths_.arc_out = arc_out_.data();
+  paths_.dim = dim_.data();
+  paths_.set = sets_.data();
+  hints_ = {{"sy.blocks/1", &blocks_}, {"sy.paths/1", &paths_}, {nullptr, nullptr}};
+  problem_.Change([this](ProblemData& d) { d.hints = hints_.data(); });
+}
+
+}  // namespace switchyard

@@ -1,0 +1,170 @@
+#include "core/gcs/term_block.hpp"
+
+#include <algorithm>
+
+#include "core/gcs/fixed_ends.hpp"
+#include "switchyard/boxes.hpp"
+#include "switchyard/error.hpp"
+
+namespace switchyard {
+namespace {
+
+std::size_t At(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+/// Where a variable stands among consecutive ones; -1: it does not.
+std::int32_t Among(Variable variable, const VectorXDecisionVariable& x) {
+  const Variable::Id offset = x.size() > 0 ? variable.get_id() - x[0].get_id() : -1;
+  return offset >= 0 && offset < x.size() ? static_cast<std::int32_t>(offset) : -1;
+}
+
+// The own variables' boxes at scale 1, hulled with 0.
+void BoxOwn(const ScaledSet& set, TermBlock& block) {
+  if (set.num_aux == 0) return;
+  const Problem at_one(AtScaleOne(set));
+  const Boxes boxes = ProvenBoxes(at_one.view());
+  for (std::int32_t k = 0; k < set.num_aux; ++k) {
+    block.own_lower[At(k)] = std::min(0.0, boxes.lower[At(set.dim + k)]);
+    block.own_upper[At(k)] = std::max(0.0, boxes.upper[At(set.dim + k)]);
+  }
+}
+
+}  // namespace
+
+void PlacedRows::Append(const Csc& by_columns, const std::vector<std::int32_t>& place_of_column) {
+  const Csc by_rows = Transpose(by_columns.View());
+  for (std::size_t i = 0; i < At(by_rows.cols); ++i) {
+    for (auto k = At(by_rows.start[i]); k < At(by_rows.start[i + 1]); ++k) {
+      if (by_rows.value[k] == 0) continue;
+      place.push_back(place_of_column[At(by_rows.row[k])]);
+      value.push_back(by_rows.value[k]);
+    }
+    start.push_back(static_cast<std::int32_t>(place.size()));
+  }
+}
+
+void TermBlock::Add(const Perspective& term, const std::vector<std::int32_t>& places) {
+  const ScaledSet& cone = term.cone;
+  std::vector<std::int32_t> place_of = {0};
+  place_of.insert(place_of.end(), places.begin(), places.end());
+  if (term.S.rows > 0) squares.Append(term.S, places);
+  for (std::int32_t k = 0; k < cone.num_aux; ++k) place_of.push_back(num_places + num_own++);
+  own_lower.resize(At(num_own), -kInfinity);
+  own_upper.resize(At(num_own), kInfinity);
+  if (cone.A.rows > 0) {
+    rows.Append(cone.A, place_of);
+    lower.insert(lower.end(), cone.lower.begin(), cone.lower.end());
+    upper.insert(upper.end(), cone.upper.begin(), cone.upper.end());
+  }
+  if (!cone.cones.empty()) {
+    cone_rows.Append(cone.F, place_of);
+    cones.insert(cones.end(), cone.cones.begin(), cone.cones.end());
+  }
+  for (std::size_t j = 0; j < term.cost.size(); ++j) {
+    if (term.cost[j] == 0) continue;
+    cost.resize(At(num_places + num_own), 0.0);
+    cost[At(place_of[j])] += term.cost[j];
+  }
+}
+
+std::size_t TermBlocks::Hash::operator()(const Key& key) const {
+  std::uint64_t hash = 1469598103934665603ULL;
+  for (const std::uint64_t part : key) {
+    hash = (hash ^ part) * 1099511628211ULL;
+    hash ^= hash >> 29;
+  }
+  return hash;
+}
+
+const TermBlock& TermBlocks::Membership(const Vertex& v) {
+  const auto [place, fresh] = of_set_.try_emplace(&v.set());
+  TermBlock& block = place->second.block;
+  if (!fresh) return block;
+  place->second.set = v.shared_set();
+  const ScaledSet& scaled = v.set().scaled();
+  std::vector<std::int32_t> places;
+  for (std::int32_t i = 0; i < scaled.dim; ++i) places.push_back(1 + i);
+  block.num_places = 1 + scaled.dim;
+  block.Add({scaled, {}, {}}, places);
+  BoxOwn(scaled, block);
+  return block;
+}
+
+// The key says all that the block follows from: evaluators, at their version, and places.
+template <class List, class PlaceOf>
+void TermBlocks::ReadTerms(const List& terms, PlaceOf&& place_of) {
+  for (const auto& term : terms) {
+    if (!term.in.contains(as_)) continue;
+    const auto& evaluator = term.binding.evaluator();
+    key_.push_back(reinterpret_cast<std::uintptr_t>(evaluator.get()));
+    key_.push_back(evaluator->version());
+    for (const Variable v : term.binding.variables()) {
+      key_.push_back(static_cast<std::uint64_t>(place_of(v)));
+    }
+  }
+}
+
+const Perspective& TermBlocks::PerspectiveOf(const std::string& owner, const auto& binding) {
+  try {
+    return perspectives_.Of(binding.evaluator());
+  } catch (const InvalidArgument& why) {
+    Refuse("at ", owner, ": ", why.what(), "; a term for the restriction alone may be any");
+  }
+}
+
+template <class Owner, class PlaceOf>
+const TermBlock& TermBlocks::Find(const Owner& owner, std::int32_t num_places, PlaceOf&& place_of) {
+  key_.assign(1, static_cast<std::uint64_t>(num_places));
+  ReadTerms(owner.costs(), place_of);
+  ReadTerms(owner.constraints(), place_of);
+  const auto found = of_terms_.find(key_);
+  if (found != of_terms_.end()) return *found->second;
+  auto block = std::make_unique<TermBlock>();
+  block->num_places = num_places;
+  const auto add = [&](const auto& terms) {
+    for (const auto& term : terms) {
+      if (!term.in.contains(as_)) continue;
+      std::vector<std::int32_t> places;
+      for (const Variable v : term.binding.variables()) places.push_back(place_of(v));
+      block->Add(PerspectiveOf(owner.name(), term.binding), places);
+    }
+  };
+  add(owner.costs());
+  add(owner.constraints());
+  return *of_terms_.emplace(key_, std::move(block)).first->second;
+}
+
+const TermBlock& TermBlocks::Terms(const Vertex& v) {
+  return Find(v, 1 + v.ambient_dimension(), [&](Variable x) { return 1 + Among(x, v.x()); });
+}
+
+const TermBlock& TermBlocks::Terms(const Edge& e) {
+  const std::int32_t of_u = e.u().ambient_dimension(), of_v = e.v().ambient_dimension();
+  const auto place_of = [&](Variable x) -> std::int32_t {
+    if (const std::int32_t i = Among(x, e.xu()); i >= 0) return 1 + i;
+    if (const std::int32_t i = Among(x, e.xv()); i >= 0) return 1 + of_u + i;
+    const auto slack = std::find(e.slacks().begin(), e.slacks().end(), x);
+    return 1 + of_u + of_v + static_cast<std::int32_t>(slack - e.slacks().begin());
+  };
+  return Find(e, 1 + of_u + of_v + static_cast<std::int32_t>(e.slacks().size()), place_of);
+}
+
+const std::vector<FixedCoordinate>& TermBlocks::Fixed(const Edge& e, bool ends) {
+  const std::int32_t of_u = e.u().ambient_dimension();
+  const TermBlock& at_u = Membership(e.u());
+  const TermBlock& at_v = Membership(e.v());
+  const TermBlock& terms_u = Terms(e.u());
+  const TermBlock& terms = Terms(e);
+  std::vector<PlacedBlock> blocks = {{&terms, 0}, {&terms_u, 0}, {&at_u, 0}, {&at_v, of_u}};
+  if (ends) blocks.push_back({&Terms(e.v()), of_u});
+  key_.clear();
+  for (const PlacedBlock& b : blocks) {
+    key_.push_back(reinterpret_cast<std::uintptr_t>(b.block));
+  }
+  const auto [place, fresh] = fixed_.try_emplace(key_);
+  if (fresh && terms.rows.count() + terms_u.rows.count() > 0) {
+    place->second = FixedEnds(e.u().set().bounding_box(), e.v().set().bounding_box(), blocks);
+  }
+  return place->second;
+}
+
+}  // namespace switchyard

@@ -1,0 +1,95 @@
+// core/gcs/term_block.hpp - what a vertex or an edge asks for, over places that are filled in
+// later.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <unordered_map>
+#include <vector>
+
+#include "core/gcs/perspective.hpp"
+#include "switchyard/gcs/graph_of_convex_sets.hpp"
+
+namespace switchyard {
+
+/// Rows whose entries are a place and a value.
+struct PlacedRows {
+  std::vector<std::int32_t> start = {0};
+  std::vector<std::int32_t> place;
+  std::vector<double> value;
+
+  [[nodiscard]] std::int32_t count() const { return static_cast<std::int32_t>(start.size()) - 1; }
+  /// The rows of a matrix, column j at place[j].
+  void Append(const Csc& by_columns, const std::vector<std::int32_t>& place_of_column);
+};
+
+/// A coordinate of an edge's (x_u, x_v) that has but one value.
+struct FixedCoordinate {
+  std::int32_t place;  // from 0
+  double value;
+};
+
+/// A cone of (t, x, w) and costs on it: place 0 is t, then come the coordinates of one or two
+/// points and slacks, each times t, and from num_places on the block's own w.
+///
+///   rows and cones over (t, x, w);  cost'(t, x, w) + |squares (t, x)|^2 / (2 t)
+struct TermBlock {
+  std::int32_t num_places = 1;
+  std::int32_t num_own = 0;
+  PlacedRows rows;
+  std::vector<double> lower, upper;  // 0 or infinite
+  PlacedRows cone_rows;
+  std::vector<sy_cone> cones;
+  PlacedRows squares;
+  std::vector<double> cost;                  // by place, own ones too; or empty
+  std::vector<double> own_lower, own_upper;  // proven at scales in [0, 1]
+
+  /// Places the perspective's x at `places`, its t at 0, its w behind all others.
+  void Add(const Perspective& term, const std::vector<std::int32_t>& places);
+};
+
+/// The blocks of one transcription: written once for all that have the same terms.
+class TermBlocks {
+ public:
+  using Vertex = GraphOfConvexSets::Vertex;
+  using Edge = GraphOfConvexSets::Edge;
+
+  explicit TermBlocks(GraphOfConvexSets::Transcription as) : as_(as) {}
+
+  /// x in tX: places t, x.
+  const TermBlock& Membership(const Vertex& v);
+  /// The vertex's costs and constraints: places t, x.
+  const TermBlock& Terms(const Vertex& v);
+  /// The edge's: places t, x_u, x_v, slacks. All throw InvalidArgument, naming it, for a term that
+  /// has no perspective.
+  const TermBlock& Terms(const Edge& e);
+  /// What an edge's rows, its tail's and, where the path ends there, its head's leave one value;
+  /// ascending.
+  const std::vector<FixedCoordinate>& Fixed(const Edge& e, bool ends);
+
+ private:
+  using Key = std::vector<std::uint64_t>;
+  struct Hash {
+    std::size_t operator()(const Key& key) const;
+  };
+  /// A set's cone; kept as long as the set is, so that its address means it.
+  struct OfSet {
+    std::shared_ptr<const ConvexSet> set;
+    TermBlock block;
+  };
+
+  template <class Owner, class PlaceOf>
+  const TermBlock& Find(const Owner& owner, std::int32_t num_places, PlaceOf&& place_of);
+  template <class List, class PlaceOf>
+  void ReadTerms(const List& terms, PlaceOf&& place_of);
+  const Perspective& PerspectiveOf(const std::string& owner, const auto& binding);
+
+  GraphOfConvexSets::Transcription as_;
+  Perspectives perspectives_;
+  std::unordered_map<const ConvexSet*, OfSet> of_set_;
+  std::unordered_map<Key, std::unique_ptr<TermBlock>, Hash> of_terms_;
+  std::unordered_map<Key, std::vector<FixedCoordinate>, Hash> fixed_;
+  Key key_;  // of the owner at hand
+};
+
+}  // namespace switchyard
