@@ -16,28 +16,6 @@ void Need(sy_status status, const sy_solver& solver, const char* call, const sy_
   throw Failure(status, std::string(solver.id) + ": " + call + ": " + error.text);
 }
 
-class Instance {
- public:
-  Instance(const sy_solver& solver, const sy_host& host) : solver_(solver) {
-    Need(solver_.create(&solver_, &host, &instance_, &error_), solver_, "create", error_);
-  }
-  Instance(const Instance&) = delete;
-  Instance& operator=(const Instance&) = delete;
-  ~Instance() { solver_.destroy(instance_); }
-
-  void Load(const sy_problem& problem) {
-    Need(solver_.load(instance_, &problem, 0, &error_), solver_, "load", error_);
-  }
-  void Solve(const sy_control& control, sy_result& result) {
-    Need(solver_.solve(instance_, &control, &result, &error_), solver_, "solve", error_);
-  }
-
- private:
-  const sy_solver& solver_;
-  sy_instance* instance_ = nullptr;
-  sy_error error_{};
-};
-
 const sy_solvers& Offered(const sy_host& host) {
   const void* table =
       host.extension == nullptr ? nullptr : host.extension(host.context, "sy.solvers/1");
@@ -52,31 +30,101 @@ const sy_solvers& Offered(const sy_host& host) {
 }  // namespace
 
 const sy_solver& FindBackend(const sy_host& host, const sy_problem& problem, const char* names,
-                             std::int64_t instances) {
+                             std::int64_t instances, std::uint64_t updates, std::uint64_t traits) {
   const sy_solvers& solvers = Offered(host);
   sy_wish wish{};
   wish.size = sizeof wish;
   wish.names = names;
   wish.problem = &problem;
+  wish.updates = updates;
   wish.instances = instances;
   sy_error error{};
-  for (const std::uint64_t traits : {std::uint64_t{SY_GIVES_DUALS}, std::uint64_t{0}}) {
-    wish.traits = traits;
+  for (const std::uint64_t wanted :
+       {SY_GIVES_DUALS | traits, std::uint64_t{SY_GIVES_DUALS}, std::uint64_t{0}}) {
+    wish.traits = wanted;
     if (const sy_solver* found = solvers.find(solvers.context, &wish, &error)) return *found;
   }
   throw Failure(SY_E_UNSUPPORTED, std::string("no backend underneath: ") + error.text);
 }
 
-Answer SolveBy(const sy_solver& solver, const sy_host& host, const sy_problem& problem,
-               const sy_control& control) {
-  Instance instance(solver, host);
-  instance.Load(problem);
+Loaded::Loaded(const sy_solver& solver, const sy_host& host, const sy_problem& problem,
+               std::uint64_t updates)
+    : solver_(solver), instance_(nullptr, solver.destroy), problem_(problem) {
+  const auto bounds = [&](const double* from, double none) {
+    std::vector<double> all(static_cast<std::size_t>(problem.num_vars), none);
+    if (from != nullptr) all.assign(from, from + problem.num_vars);
+    return all;
+  };
+  lower_ = bounds(problem.x_lower, -std::numeric_limits<double>::infinity());
+  upper_ = bounds(problem.x_upper, std::numeric_limits<double>::infinity());
+  sy_error error{};
+  sy_instance* created = nullptr;
+  Need(solver_.create(&solver_, &host, &created, &error), solver_, "create", error);
+  instance_.reset(created);
+  Load(problem_, updates);
+}
+
+void Loaded::Load(const sy_problem& problem, std::uint64_t updates) {
+  sy_error error{};
+  Need(solver_.load(instance_.get(), &problem, updates, &error), solver_, "load", error);
+}
+
+void Loaded::SetBounds(const std::vector<double>& lower, const std::vector<double>& upper) {
+  std::vector<std::int32_t> changed;
+  std::vector<double> below, above;
+  for (std::size_t j = 0; j < lower.size(); ++j) {
+    if (lower[j] == lower_[j] && upper[j] == upper_[j]) continue;
+    changed.push_back(static_cast<std::int32_t>(j));
+    below.push_back(lower[j]);
+    above.push_back(upper[j]);
+  }
+  lower_ = lower;
+  upper_ = upper;
+  if (changed.empty()) return;
+  if (solver_.update == nullptr) {
+    loaded_lower_ = lower;
+    loaded_upper_ = upper;
+    problem_.x_lower = loaded_lower_.data();
+    problem_.x_upper = loaded_upper_.data();
+    return Load(problem_, 0);
+  }
+  sy_update update{};
+  update.size = sizeof update;
+  update.num_x = static_cast<std::int32_t>(changed.size());
+  update.x = changed.data();
+  update.x_lower = below.data();
+  update.x_upper = above.data();
+  sy_error error{};
+  Need(solver_.update(instance_.get(), &update, &error), solver_, "update", error);
+}
+
+void Loaded::StartFrom(const Answer& answer) {
+  if (solver_.warm_start == nullptr) return;
+  const auto extended = [](std::vector<double> v, std::int32_t count) {
+    v.resize(static_cast<std::size_t>(count), 0.0);
+    return v;
+  };
+  const std::vector<double> x = extended(answer.x, problem_.num_vars);
+  const std::vector<double> x_dual = extended(answer.x_dual, problem_.num_vars);
+  const std::vector<double> row_dual = extended(answer.row_dual, problem_.num_rows);
+  const std::vector<double> cone_dual = extended(answer.cone_dual, problem_.num_cone_rows);
+  sy_start start{};
+  start.size = sizeof start;
+  start.x = x.data();
+  start.x_dual = x_dual.data();
+  start.row_dual = row_dual.data();
+  start.cone_dual = cone_dual.data();
+  sy_error error{};
+  solver_.warm_start(instance_.get(), &start, &error);
+}
+
+Answer Loaded::Solve(const sy_control& control) {
   Answer answer;
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-  answer.x.assign(static_cast<std::size_t>(problem.num_vars), kNaN);
-  answer.x_dual.assign(static_cast<std::size_t>(problem.num_vars), 0.0);
-  answer.row_dual.assign(static_cast<std::size_t>(problem.num_rows), 0.0);
-  answer.cone_dual.assign(static_cast<std::size_t>(problem.num_cone_rows), 0.0);
+  answer.x.assign(static_cast<std::size_t>(problem_.num_vars), kNaN);
+  answer.x_dual.assign(static_cast<std::size_t>(problem_.num_vars), 0.0);
+  answer.row_dual.assign(static_cast<std::size_t>(problem_.num_rows), 0.0);
+  answer.cone_dual.assign(static_cast<std::size_t>(problem_.num_cone_rows), 0.0);
   std::array<char, 512> text{};
   sy_result result{};
   result.size = sizeof result;
@@ -88,7 +136,8 @@ Answer SolveBy(const sy_solver& solver, const sy_host& host, const sy_problem& p
   result.cone_dual = answer.cone_dual.data();
   result.text = text.data();
   result.text_size = text.size();
-  instance.Solve(control, result);
+  sy_error error{};
+  Need(solver_.solve(instance_.get(), &control, &result, &error), solver_, "solve", error);
   answer.termination = result.termination;
   answer.primal = result.primal;
   answer.dual = result.dual;
@@ -96,6 +145,13 @@ Answer SolveBy(const sy_solver& solver, const sy_host& host, const sy_problem& p
   text.back() = '\0';
   answer.text = text.data();
   return answer;
+}
+
+Answer SolveBy(const sy_solver& solver, const sy_host& host, const sy_problem& problem,
+               const sy_control& control, const Answer* from) {
+  Loaded loaded(solver, host, problem, 0);
+  if (from != nullptr) loaded.StartFrom(*from);
+  return loaded.Solve(control);
 }
 
 }  // namespace switchyard::rounding

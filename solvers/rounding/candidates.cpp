@@ -6,9 +6,9 @@
 #include <cmath>
 #include <exception>
 #include <optional>
-#include <set>
 #include <span>
 #include <thread>
+#include <utility>
 
 #include "solvers/rounding/backend.hpp"
 #include "solvers/rounding/restriction.hpp"
@@ -162,42 +162,58 @@ std::vector<std::int32_t> MostProbablePath(const PathProblem& whole,
 
 }  // namespace
 
-std::vector<Candidate> SampleCandidates(const PathProblem& whole, const std::vector<double>& x,
-                                        const Options& options, std::uint64_t seed) {
+namespace {
+
+std::vector<double> FlowIn(const PathProblem& whole, const std::vector<double>& x) {
   const sy_paths& paths = whole.paths();
   std::vector<double> flow;
   for (std::int32_t a = 0; a < paths.num_arcs; ++a) {
     flow.push_back(x[static_cast<std::size_t>(paths.flow[a])]);
   }
-  std::vector<Candidate> candidates;
-  std::set<std::vector<std::int32_t>> known;
-  Random random(seed);
-  if (options.paths > 0) {  // the likeliest draw is worth a try, drawn or not
-    std::vector<std::int32_t> likeliest = MostProbablePath(whole, flow, options.flow_tolerance);
-    if (!likeliest.empty()) {
-      known.insert(likeliest);
-      candidates.emplace_back().path = std::move(likeliest);
-    }
-  }
-  for (int trial = 0; trial < options.trials; ++trial) {
-    if (candidates.size() >= static_cast<std::size_t>(options.paths)) break;
+  return flow;
+}
+
+}  // namespace
+
+bool AddPath(std::vector<std::int32_t> path, std::vector<Candidate>& candidates) {
+  const bool known = std::any_of(candidates.begin(), candidates.end(),
+                                 [&](const Candidate& c) { return c.path == path; });
+  if (!known) candidates.emplace_back().path = std::move(path);
+  return !known;
+}
+
+void AddLikeliest(const PathProblem& whole, const std::vector<double>& x, const Options& options,
+                  std::vector<Candidate>& candidates) {
+  std::vector<std::int32_t> path =
+      MostProbablePath(whole, FlowIn(whole, x), options.flow_tolerance);
+  if (!path.empty()) AddPath(std::move(path), candidates);
+}
+
+void SampleCandidates(const PathProblem& whole, const std::vector<double>& x,
+                      const Options& options, std::size_t count, Random& random, int& trials,
+                      std::vector<Candidate>& candidates) {
+  const sy_paths& paths = whole.paths();
+  const std::vector<double> flow = FlowIn(whole, x);
+  for (; trials > 0 && count > 0; --trials) {
     auto path = SamplePath(whole.arcs(), whole.out(), flow, options.flow_tolerance, paths.source,
                            paths.target, random);
     if (!path) break;  // then no draw finds one
-    if (!known.insert(*path).second) continue;
-    candidates.emplace_back().path = std::move(*path);
+    if (AddPath(std::move(*path), candidates)) --count;
   }
-  return candidates;
 }
 
 void SolveCandidates(const PathProblem& whole, const sy_host& host, const Options& options,
                      std::int32_t threads, Budget& budget, std::vector<Candidate>& candidates) {
+  std::vector<Candidate*> waiting;
+  for (Candidate& c : candidates) {
+    if (!std::exchange(c.tried, true)) waiting.push_back(&c);
+  }
   const std::size_t workers =
-      std::clamp<std::size_t>(candidates.size(), 1, static_cast<std::size_t>(std::max(1, threads)));
+      std::clamp<std::size_t>(waiting.size(), 1, static_cast<std::size_t>(std::max(1, threads)));
   const Solving solving(whole, host, options, static_cast<std::int64_t>(workers), budget);
   std::atomic<std::size_t> next = 0;
   const auto work = [&] {
-    for (std::size_t k = next++; k < candidates.size(); k = next++) solving.Solve(candidates[k]);
+    for (std::size_t k = next++; k < waiting.size(); k = next++) solving.Solve(*waiting[k]);
   };
   std::vector<std::jthread> others;
   for (std::size_t w = 1; w < workers; ++w) others.emplace_back(work);

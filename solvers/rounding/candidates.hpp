@@ -9,12 +9,14 @@
 #include "solvers/rounding/options.hpp"
 #include "solvers/rounding/path_problem.hpp"
 #include "switchyard/abi.h"
+#include "switchyard/arcs.hpp"
 
 namespace switchyard::rounding {
 
 /// A path that was tried: its restriction's answer, judged.
 struct Candidate {
   std::vector<std::int32_t> path;  // arcs
+  bool tried = false;
   sy_termination termination = SY_NOT_SOLVED;
   bool feasible = false;  // x holds in the whole problem; or solve_path said so
   bool verified = false;  // x holds in the whole problem
@@ -24,14 +26,23 @@ struct Candidate {
   std::vector<double> x;  // of the whole problem, where verified
 };
 
-/// Up to options.paths distinct paths within options.trials draws from the relaxed point's flows.
-std::vector<Candidate> SampleCandidates(const PathProblem& whole, const std::vector<double>& x,
-                                        const Options& options, std::uint64_t seed);
+/// Adds a path, where it is not there yet; was it added?
+bool AddPath(std::vector<std::int32_t> path, std::vector<Candidate>& candidates);
 
-/// Solves the restriction of each candidate from nothing, at most `threads` at a time, each by one
-/// thread: the answers do not depend on how many. A point counts only where it holds in the whole
-/// problem, relative 1e-6, and its objective is computed here. Where the front end solves paths
-/// itself, its word for the objective stands.
+/// Adds the path of the largest product of its arcs' parts of the flow, where it is not there yet.
+void AddLikeliest(const PathProblem& whole, const std::vector<double>& x, const Options& options,
+                  std::vector<Candidate>& candidates);
+
+/// Adds up to `count` others, drawn from the relaxed point's flows, and takes the draws from
+/// `trials`.
+void SampleCandidates(const PathProblem& whole, const std::vector<double>& x,
+                      const Options& options, std::size_t count, Random& random, int& trials,
+                      std::vector<Candidate>& candidates);
+
+/// Solves the restriction of each candidate that was not tried yet, from nothing, at most `threads`
+/// at a time, each by one thread: the answers do not depend on how many. A point counts only where
+/// it holds in the whole problem, relative 1e-6, and its objective is computed here. Where the
+/// front end solves paths itself, its word for the objective stands.
 void SolveCandidates(const PathProblem& whole, const sy_host& host, const Options& options,
                      std::int32_t threads, Budget& budget, std::vector<Candidate>& candidates);
 

@@ -12,6 +12,9 @@ struct Options {
   std::string solver;            // names of backends for relaxation and restrictions; "": any
   int paths = 10;                // distinct ones to try; 0: the relaxation alone
   int trials = 100;              // draws of a path
+  int cut_rounds = 6;            // of cuts, at most
+  int hulls = 0;                 // 1: cuts from the hulls of vertices, too
+  int dives = 16;                // without paths: tries, the first is rounding; 0: the relaxation
   double flow_tolerance = 1e-5;  // arcs with no more flow are not drawn
 
   /// Throws plugin::Failure: an unknown name, another type, a value out of range.

@@ -41,8 +41,11 @@ void NeedIndices(const std::string& what, const std::int32_t* index, std::int32_
 }
 
 sy_blocks CheckedBlocks(const sy_problem& p) {
-  if (const char* why = WhyNot(p)) {
-    if (*why != '\0') throw Failure(SY_E_UNSUPPORTED, why);
+  if (const char* why = WhyNot(p); *why != '\0') throw Failure(SY_E_UNSUPPORTED, why);
+  if (!IsPathProblem(p)) {
+    throw Failure(SY_E_UNSUPPORTED,
+                  "a path problem needs the hints sy.paths/1 and sy.blocks/1, and the problem does "
+                  "not have both");
   }
   const auto blocks = plugin::Whole(*static_cast<const sy_blocks*>(HintOf(p, "sy.blocks/1")));
   NeedIndices("sy.blocks/1: x", blocks.x, p.num_vars, -1, blocks.num_blocks);
@@ -122,15 +125,11 @@ std::span<const std::int32_t> Groups::Of(std::int32_t group) const {
   return std::span(member_).subspan(At(first), At(start_[At(group) + 1] - first));
 }
 
+bool IsPathProblem(const sy_problem& problem) {
+  return HintOf(problem, "sy.paths/1") != nullptr && HintOf(problem, "sy.blocks/1") != nullptr;
+}
+
 const char* WhyNot(const sy_problem& problem) {
-  if (HintOf(problem, "sy.paths/1") == nullptr) {
-    return "relax-and-round needs to know which integer variables are arcs of a path (the hint "
-           "sy.paths/1), and the problem does not say";
-  }
-  if (HintOf(problem, "sy.blocks/1") == nullptr) {
-    return "relax-and-round needs to know the blocks of the arcs (the hint sy.blocks/1), and the "
-           "problem does not say";
-  }
   if (problem.P != nullptr && (problem.flags & SY_PROBLEM_CONVEX) == 0) {
     return "relax-and-round needs an objective that is known to be convex, and P is not";
   }

@@ -23,6 +23,9 @@ class Groups {
   std::vector<std::int32_t> start_, member_;
 };
 
+/// Does the problem say which of its variables are arcs, and their blocks?
+bool IsPathProblem(const sy_problem& problem);
+
 /// Why relax-and-round does not take a problem; "" where it does.
 const char* WhyNot(const sy_problem& problem);
 

@@ -7,12 +7,17 @@
 #include <sstream>
 
 #include "solvers/rounding/bound.hpp"
+#include "solvers/rounding/general.hpp"
+#include "solvers/rounding/recombine.hpp"
+#include "solvers/rounding/tightened.hpp"
+#include "solvers/rounding/vertex_hull.hpp"
 #include "switchyard/plugin.hpp"
 #include "switchyard/problem.hpp"
 
 namespace switchyard::rounding {
 namespace {
 
+constexpr double kViolated = 1e-5;  // by a cut: relative to its terms
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 bool IsPoint(sy_point_kind kind) { return kind != SY_NO_POINT && kind != SY_CERTIFICATE; }
@@ -28,11 +33,11 @@ class Run {
     if (budget_.Stopped()) return Finish(budget_.reason(), "");
     Relax();
     if (const auto end = EndOfRelaxation()) return Finish(*end, "");
-    candidates_ = SampleCandidates(whole_, relaxed_.x, options_, budget_.control().seed);
+    Round();
+    Recombine();
     if (candidates_.empty()) {
       return Finish(SY_NO_PATH, "the relaxed flow holds no path from source to target");
     }
-    SolveCandidates(whole_, host_, options_, budget_.control().threads, budget_, candidates_);
     KeepTheBest();
     CloseTheBound();
     Finish(Verdict(), ReasonOfFailure());
@@ -46,17 +51,173 @@ class Run {
     return reached[static_cast<std::size_t>(whole_.paths().target)] != 0;
   }
 
+  // The relaxation; then, while its flow uses both directions between vertices as no path does, and
+  // its likeliest path is not yet good enough, the same with the rows against that.
   void Relax() {
-    const char* names = options_.solver.empty() ? nullptr : options_.solver.c_str();
-    const sy_problem& relaxation = whole_.relaxation();
-    const sy_solver& solver = FindBackend(host_, relaxation, names, 1);
-    relaxation_id_ = solver.id;
     const double begin = budget_.Seconds();
-    relaxed_ = SolveBy(solver, host_, relaxation, budget_.Part(budget_.control().threads));
+    SolveRelaxation(whole_.relaxation());
+    if (options_.cut_rounds > 0 && Tightened::Serves(whole_)) Tighten();
     relaxation_seconds_ = budget_.Seconds() - begin;
-    if (relaxed_.dual != SY_CERTIFICATE) bound_ = ProvenBound(p_, relaxed_, kInfinity);
     budget_.Tell(kNaN, bound_, nullptr);
     TellRelaxation();
+  }
+
+  void Tighten() {
+    Tightened tightened(whole_);
+    const VertexHull hull(whole_, host_, options_, budget_);
+    for (; rounds_ < options_.cut_rounds && CanBeTightened(); ++rounds_) {
+      int added = tightened.AddTwoCycles(relaxed_.x, kViolated);
+      if (added == 0 && options_.hulls != 0) added = AddHulls(hull, tightened);
+      if (added == 0 || LikeliestPathWillDo()) break;
+      tightened.Rebuild();
+      const double before = Objective(p_, relaxed_.x.data());
+      if (!SolveTightened(tightened)) break;
+      const double gain = Objective(p_, relaxed_.x.data()) - before;
+      if (gain <= LeastGain(before)) break;
+    }
+  }
+
+  int AddHulls(const VertexHull& hull, Tightened& tightened) {
+    int added = 0;
+    for (std::int32_t v = 0; v < whole_.paths().num_vertices && !budget_.Stopped(); ++v) {
+      if (!hull.Asks(v, relaxed_.x)) continue;
+      const auto row = hull.Cut(v, relaxed_.x, kViolated);
+      if (row.empty()) continue;
+      tightened.AddRow(row);
+      ++added;
+    }
+    tightened.Count(added);
+    return added;
+  }
+
+  /// Is the path that the flow draws most often within the gap of the bound? It stays a candidate.
+  bool LikeliestPathWillDo() {
+    if (options_.paths == 0 || whole_.paths().solve_path != nullptr) return false;
+    const std::size_t before = candidates_.size();
+    AddLikeliest(whole_, relaxed_.x, options_, candidates_);
+    if (candidates_.size() == before) return false;
+    SolveCandidates(whole_, host_, options_, budget_.control().threads, budget_, candidates_);
+    const Candidate& likeliest = candidates_.back();
+    return likeliest.feasible && IsWithinTheGap(likeliest.objective);
+  }
+
+  /// What a round must add to the relaxation for another one to be worth it: where there is a path,
+  /// a part of what lies between.
+  [[nodiscard]] double LeastGain(double relaxed) const {
+    constexpr double kOfValue = 1e-5, kOfGap = 0.02;
+    double least = kOfValue * (1 + std::abs(relaxed));
+    for (const Candidate& c : candidates_) {
+      if (c.feasible) least = std::max(least, kOfGap * (c.objective - relaxed));
+    }
+    return least;
+  }
+
+  [[nodiscard]] bool IsWithinTheGap(double objective) const {
+    const sy_control& control = budget_.control();
+    const double gap = std::max(0.0, objective - bound_);
+    const double relative = std::isnan(control.relative_gap) ? 1e-4 : control.relative_gap;
+    const double absolute = std::isnan(control.absolute_gap) ? 0 : control.absolute_gap;
+    return gap <= relative * std::max(1e-10, std::abs(objective)) || gap <= absolute;
+  }
+
+  void SolveRelaxation(const sy_problem& relaxation) {
+    const char* names = options_.solver.empty() ? nullptr : options_.solver.c_str();
+    const sy_solver& solver = FindBackend(host_, relaxation, names, 1);
+    relaxation_id_ = solver.id;
+    relaxed_ = SolveBy(solver, host_, relaxation, budget_.Part(budget_.control().threads));
+    if (relaxed_.dual != SY_CERTIFICATE) bound_ = ProvenBound(p_, relaxed_, kInfinity);
+  }
+
+  // The likeliest draw is worth a try, drawn or not. A path that turns out to have no point does
+  // not count: another one is drawn for it.
+  void Round() {
+    Random random(budget_.control().seed);
+    int trials = options_.trials;
+    const auto wanted = static_cast<std::size_t>(options_.paths);
+    AddLikeliest(whole_, relaxed_.x, options_, candidates_);
+    for (std::size_t tried = 0; !budget_.Stopped(); tried = candidates_.size()) {
+      const auto missing = wanted - std::min(wanted, NumFeasible());
+      const std::size_t waiting = candidates_.size() - std::min(candidates_.size(), NumTried());
+      SampleCandidates(whole_, relaxed_.x, options_, missing - std::min(missing, waiting), random,
+                       trials, candidates_);
+      if (candidates_.size() == tried) break;
+      SolveCandidates(whole_, host_, options_, budget_.control().threads, budget_, candidates_);
+    }
+  }
+
+  // Detours of the best path along the others, as many as paths were asked for, as long as one of
+  // them is better than what it was made from.
+  void Recombine() {
+    std::size_t left = static_cast<std::size_t>(options_.paths);
+    for (const Candidate* best = Best(); best != nullptr && left > 0 && !budget_.Stopped();) {
+      const std::vector<std::int32_t> base = best->path;
+      std::vector<std::vector<std::int32_t>> detours;
+      for (const Candidate& c : candidates_) {
+        if (!c.feasible) continue;
+        for (auto& detour : Detours(whole_.arcs(), base, c.path)) {
+          detours.push_back(std::move(detour));
+        }
+      }
+      const double before = best->objective;
+      const std::size_t count = candidates_.size();
+      for (auto& detour : detours) {
+        if (left > 0 && AddPath(std::move(detour), candidates_)) --left;
+      }
+      if (candidates_.size() == count) return;
+      SolveCandidates(whole_, host_, options_, budget_.control().threads, budget_, candidates_);
+      best = Best();
+      if (!(best->objective < before)) return;
+    }
+  }
+
+  [[nodiscard]] const Candidate* Best() const {
+    const Candidate* best = nullptr;
+    for (const Candidate& c : candidates_) {
+      if (c.feasible && (best == nullptr || c.objective < best->objective)) best = &c;
+    }
+    return best;
+  }
+
+  [[nodiscard]] std::size_t NumFeasible() const {
+    return static_cast<std::size_t>(std::count_if(candidates_.begin(), candidates_.end(),
+                                                  [](const Candidate& c) { return c.feasible; }));
+  }
+  [[nodiscard]] std::size_t NumTried() const {
+    return static_cast<std::size_t>(std::count_if(candidates_.begin(), candidates_.end(),
+                                                  [](const Candidate& c) { return c.tried; }));
+  }
+
+  [[nodiscard]] bool CanBeTightened() {
+    return IsPoint(relaxed_.primal) && relaxed_.termination == SY_OPTIMAL && !budget_.Stopped();
+  }
+
+  /// What a limit or trouble leaves of a tightened relaxation is no better than what was there; but
+  /// its bound may be.
+  bool SolveTightened(const Tightened& tightened) {
+    const Problem problem(tightened.problem());
+    const char* names = options_.solver.empty() ? nullptr : options_.solver.c_str();
+    const sy_solver& solver = FindBackend(host_, tightened.relaxation(), names, 1);
+    Answer answer = SolveBy(solver, host_, tightened.relaxation(),
+                            budget_.Part(budget_.control().threads), &relaxed_);
+    answer.iterations += relaxed_.iterations;
+    if (answer.dual == SY_CERTIFICATE) return JudgeTightened(problem.view(), answer);
+    bound_ = std::max(bound_, ProvenBound(problem.view(), answer, kInfinity));
+    if (!IsPoint(answer.primal) || answer.termination != SY_OPTIMAL) return false;
+    num_cuts_ = tightened.num_cuts();
+    relaxed_ = std::move(answer);
+    tightened_ = problem;
+    return true;
+  }
+
+  // No path keeps rows that every path keeps: there is none. The certificate speaks of more rows
+  // than the problem has, so it is judged here and goes no further.
+  bool JudgeTightened(const sy_problem& problem, const Answer& certificate) {
+    if (!ProvesInfeasible(problem, certificate)) return false;
+    relaxed_.termination = SY_INFEASIBLE;
+    relaxed_.dual = SY_NO_POINT;
+    relaxed_.text = "the relaxation with the rows against two-cycles is infeasible, proven";
+    contradiction_ = true;
+    return false;
   }
 
   void TellRelaxation() const {
@@ -68,6 +229,11 @@ class Run {
     told.termination = relaxed_.termination;
     told.objective = kNaN;
     told.relaxed = IsPoint(relaxed_.primal) ? Objective(p_, relaxed_.x.data()) : kNaN;
+    std::vector<double> point;
+    if (IsPoint(relaxed_.primal)) {
+      point.assign(relaxed_.x.begin(), relaxed_.x.begin() + p_.num_vars);  // without cuts'
+      told.relaxed_x = point.data();
+    }
     told.bound = bound_;
     told.iterations = relaxed_.iterations;
     told.seconds = relaxation_seconds_;
@@ -94,7 +260,9 @@ class Run {
   /// A contradiction is believed where it is proven here, or where its certificate goes along for
   /// whoever reads the answer.
   sy_termination JudgeContradiction() {
-    if (relaxed_.dual == SY_CERTIFICATE || ProvesInfeasible(p_, relaxed_)) return SY_INFEASIBLE;
+    if (contradiction_ || relaxed_.dual == SY_CERTIFICATE || ProvesInfeasible(p_, relaxed_)) {
+      return SY_INFEASIBLE;
+    }
     relaxed_.text += " (a contradiction without a proof)";
     return SY_NUMERICAL_TROUBLE;
   }
@@ -135,18 +303,14 @@ class Run {
     if (best_ == nullptr || !best_->verified || relaxed_.dual == SY_CERTIFICATE) return;
     const double relaxed = Objective(p_, relaxed_.x.data());
     if (relaxed - bound_ <= kGood * (1 + std::abs(relaxed))) return;
-    bound_ = std::max(bound_, ProvenBound(p_, relaxed_, best_->objective));
+    const sy_problem& problem = num_cuts_ > 0 ? tightened_.view() : p_;
+    bound_ = std::max(bound_, ProvenBound(problem, relaxed_, best_->objective));
   }
 
   [[nodiscard]] sy_termination Verdict() const {
-    const sy_control& control = budget_.control();
     if (best_ != nullptr) {
-      const double gap = std::max(0.0, best_->objective - bound_);
-      const double relative = std::isnan(control.relative_gap) ? 1e-4 : control.relative_gap;
-      const double absolute = std::isnan(control.absolute_gap) ? 0 : control.absolute_gap;
-      const double size = std::max(1e-10, std::abs(best_->objective));
-      if (gap <= relative * size || gap <= absolute) return SY_OPTIMAL;
-      if (best_->objective <= control.target) return SY_TARGET;
+      if (IsWithinTheGap(best_->objective)) return SY_OPTIMAL;
+      if (best_->objective <= budget_.control().target) return SY_TARGET;
     }
     if (budget_.reason() != SY_NOT_SOLVED) return budget_.reason();
     return best_ != nullptr ? SY_LOCALLY_OPTIMAL : SY_RESTRICTIONS_FAILED;
@@ -163,6 +327,7 @@ class Run {
     std::ostringstream text;
     if (!relaxation_id_.empty()) {
       text << "relaxation by " << relaxation_id_ << " in " << relaxation_seconds_ << " s";
+      if (num_cuts_ > 0) text << " with " << num_cuts_ << " cuts in " << rounds_ << " rounds";
       if (!candidates_.empty()) {
         text << "; " << num_feasible_ << " of " << candidates_.size() << " paths feasible";
       } else if (!relaxed_.text.empty()) {
@@ -182,6 +347,9 @@ class Run {
   Answer relaxed_;
   std::string relaxation_id_;
   double relaxation_seconds_ = 0;
+  Problem tightened_;  // the last one that was solved
+  int num_cuts_ = 0, rounds_ = 0;
+  bool contradiction_ = false;  // proven, of the tightened relaxation
   double bound_ = -kInfinity;
   std::vector<Candidate> candidates_;
   const Candidate* best_ = nullptr;
@@ -209,7 +377,7 @@ void Run::Write(sy_result& result) const {
   }
   if (IsPoint(relaxed_.primal)) {
     result.relaxed = Objective(p_, relaxed_.x.data());
-    Put(relaxed_.x, result.relaxed_x);
+    Put({relaxed_.x.begin(), relaxed_.x.begin() + p_.num_vars}, result.relaxed_x);  // without cuts'
   }
   if (termination_ == SY_INFEASIBLE && relaxed_.dual == SY_CERTIFICATE) {
     result.dual = SY_CERTIFICATE;
@@ -226,15 +394,26 @@ void Run::Write(sy_result& result) const {
 }  // namespace
 
 void RelaxAndRound::Supports(const sy_host&, const sy_problem& problem) {
-  const char* why = WhyNot(problem);
-  if (*why != '\0') throw plugin::Failure(SY_E_UNSUPPORTED, why);
+  if (const char* why = WhyNot(problem); *why != '\0') throw plugin::Failure(SY_E_UNSUPPORTED, why);
 }
 
-void RelaxAndRound::Load(const sy_problem& problem, std::uint64_t) { problem_.emplace(problem); }
+void RelaxAndRound::Load(const sy_problem& problem, std::uint64_t) {
+  if (const char* why = WhyNot(problem); *why != '\0') {
+    throw plugin::Failure(SY_E_UNSUPPORTED, why);
+  }
+  paths_.reset();
+  general_.reset();
+  if (IsPathProblem(problem)) {
+    paths_.emplace(problem);
+  } else {
+    general_.emplace(problem);
+  }
+}
 
 void RelaxAndRound::Solve(const sy_control& control, sy_result& result) {
+  if (general_) return SolveGeneral(*general_, options_, host_, control, result);
   Budget budget(control);
-  Run run(*problem_, options_, host_, budget);
+  Run run(*paths_, options_, host_, budget);
   run.Solve();
   run.Write(result);
 }

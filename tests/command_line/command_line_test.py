@@ -144,6 +144,8 @@ class Answers(CommandLine):
         solved = set()
         for name, optimum in OPTIMA.items():
             for backend in self.backends:
+                if backend == "relax-and-round":
+                    continue  # which seeks no optimum
                 done = self.run_program("solve", self.example(name), "--solver", backend,
                                         "--gap", "1e-9", "--json", "-")
                 result = json.loads(done.stdout)
