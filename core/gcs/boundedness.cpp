@@ -70,9 +70,8 @@ std::vector<const GraphOfConvexSets::Vertex*> UnboundedVertices(const PrunedGrap
     if (used[v] == 0) continue;
     const SetBox& box = vertex.set().bounding_box();
     if (box.empty || box.is_finite()) continue;
-    if (IsClosed(blocks.Membership(vertex), blocks.Terms(vertex), vertex.ambient_dimension())) {
-      continue;
-    }
+    const VertexBlocks& of = blocks.Of(vertex);
+    if (IsClosed(*of.set, *of.terms, vertex.ambient_dimension())) continue;
     unbounded.push_back(&vertex);
   }
   return unbounded;

@@ -40,13 +40,16 @@ std::vector<const Vertex*> VerticesOf(const std::vector<const Edge*>& edges) {
 }
 
 std::unique_ptr<MathematicalProgram> RestrictionOf(const std::vector<const Vertex*>& vertices,
-                                                   const std::vector<const Edge*>& edges) {
+                                                   const std::vector<const Edge*>& edges,
+                                                   SetsOf sets) {
   auto program = std::make_unique<MathematicalProgram>();
   std::unordered_set<const void*> seen;
   for (const Vertex* v : vertices) {
     if (!seen.insert(v).second) continue;
     program->AddDecisionVariables(v->x());
-    v->set().AddPointInSetConstraints(program.get(), v->x());
+    if (sets == SetsOf::kAll || v->set().scaled().num_aux == 0) {
+      v->set().AddPointInSetConstraints(program.get(), v->x());
+    }
     AddTerms(*v, *program);
   }
   for (const Edge* edge : edges) {

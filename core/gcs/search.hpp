@@ -53,6 +53,7 @@ class Search {
   void RecoverWhole();
   void RecoverFlow();
   void RecoverPath(const PathPoints& path);
+  double CheckPath(const PathPoints& path);
   void CapRelaxation();
   void RecoverRelaxation();
   void RecoverBestTried();

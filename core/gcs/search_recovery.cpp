@@ -94,7 +94,21 @@ void Search::RecoverPath(const PathPoints& path) {
   answer_.edges = path.edges;
   answer_.points = path.points;
   SetPathPoint(graph_, path, result());
-  const auto program = RestrictionOf(VerticesOf(path.edges), path.edges);
+  const double violation = CheckPath(path);
+  result().primal = violation <= kSupported ? PointKind::kFeasible : PointKind::kNearlyFeasible;
+  if (violation <= kSupported) return CapRelaxation();
+  result().notes.push_back(Text("our check finds the path's points violated by ",
+                                result().violation.rows, " in rows and ", result().violation.cones,
+                                " in cones"));
+  result().termination = Termination::kNumericalTrouble;
+}
+
+// Cost and violation of the path's points in the graph's own terms; the latter in units of
+// kSupported too. A set that is said with variables of its own is asked how far its point is from
+// it, relative to the point.
+double Search::CheckPath(const PathPoints& path) {
+  const std::vector<const Vertex*> vertices = VerticesOf(path.edges);
+  const auto program = RestrictionOf(vertices, path.edges, SetsOf::kWithoutVariables);
   Eigen::VectorXd x(program->num_vars());
   for (int j = 0; j < program->num_vars(); ++j) {
     x[j] = result().GetSolution(program->decision_variable(j));
@@ -102,14 +116,15 @@ void Search::RecoverPath(const PathPoints& path) {
   result().objective = program->EvalCosts(x);
   result().violation = ViolationOf(*program, x);
   const Lowering lowering(*program);
-  const double violation =
-      RelativeViolation(lowering.problem().view(), lowering.Extend(*program, x));
-  result().primal = violation <= kSupported ? PointKind::kFeasible : PointKind::kNearlyFeasible;
-  if (violation <= kSupported) return CapRelaxation();
-  result().notes.push_back(Text("our check finds the path's points violated by ",
-                                result().violation.rows, " in rows and ", result().violation.cones,
-                                " in cones"));
-  result().termination = Termination::kNumericalTrouble;
+  double worst = RelativeViolation(lowering.problem().view(), lowering.Extend(*program, x));
+  for (std::size_t k = 0; k < vertices.size(); ++k) {
+    const ConvexSet& set = vertices[k]->set();
+    if (set.scaled().num_aux == 0) continue;
+    const double apart = set.Violation(path.points[k]);
+    result().violation.rows = std::max(result().violation.rows, apart);
+    worst = std::max(worst, apart / (1 + path.points[k].lpNorm<Eigen::Infinity>()));
+  }
+  return worst;
 }
 
 // A path's points are points of the relaxation too, so its optimum is no higher than the path's

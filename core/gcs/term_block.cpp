@@ -17,6 +17,13 @@ std::int32_t Among(Variable variable, const VectorXDecisionVariable& x) {
   return offset >= 0 && offset < x.size() ? static_cast<std::int32_t>(offset) : -1;
 }
 
+constexpr std::uint64_t kBegin = 1469598103934665603ULL;
+
+void Mix(std::uint64_t part, std::uint64_t& hash) {
+  hash = (hash ^ part) * 1099511628211ULL;
+  hash ^= hash >> 29;
+}
+
 // The own variables' boxes at scale 1, hulled with 0.
 void BoxOwn(const ScaledSet& set, TermBlock& block) {
   if (set.num_aux == 0) return;
@@ -67,11 +74,8 @@ void TermBlock::Add(const Perspective& term, const std::vector<std::int32_t>& pl
 }
 
 std::size_t TermBlocks::Hash::operator()(const Key& key) const {
-  std::uint64_t hash = 1469598103934665603ULL;
-  for (const std::uint64_t part : key) {
-    hash = (hash ^ part) * 1099511628211ULL;
-    hash ^= hash >> 29;
-  }
+  std::uint64_t hash = kBegin;
+  for (const std::uint64_t part : key) Mix(part, hash);
   return hash;
 }
 
@@ -150,21 +154,56 @@ const TermBlock& TermBlocks::Terms(const Edge& e) {
 
 const std::vector<FixedCoordinate>& TermBlocks::Fixed(const Edge& e, bool ends) {
   const std::int32_t of_u = e.u().ambient_dimension();
-  const TermBlock& at_u = Membership(e.u());
-  const TermBlock& at_v = Membership(e.v());
-  const TermBlock& terms_u = Terms(e.u());
-  const TermBlock& terms = Terms(e);
-  std::vector<PlacedBlock> blocks = {{&terms, 0}, {&terms_u, 0}, {&at_u, 0}, {&at_v, of_u}};
-  if (ends) blocks.push_back({&Terms(e.v()), of_u});
+  const VertexBlocks u = Of(e.u()), v = Of(e.v());
+  const TermBlock& terms = *of_edge_[At(e.id().value)].terms;
+  std::vector<PlacedBlock> blocks = {{&terms, 0}, {u.terms, 0}, {u.set, 0}, {v.set, of_u}};
+  if (ends) blocks.push_back({v.terms, of_u});
   key_.clear();
   for (const PlacedBlock& b : blocks) {
     key_.push_back(reinterpret_cast<std::uintptr_t>(b.block));
   }
   const auto [place, fresh] = fixed_.try_emplace(key_);
-  if (fresh && terms.rows.count() + terms_u.rows.count() > 0) {
+  if (fresh && terms.rows.count() + u.terms->rows.count() > 0) {
     place->second = FixedEnds(e.u().set().bounding_box(), e.v().set().bounding_box(), blocks);
   }
   return place->second;
+}
+
+template <class List>
+void TermBlocks::Stamp(const List& terms, std::uint64_t& stamp) const {
+  for (const auto& term : terms) {
+    if (!term.in.contains(as_)) continue;
+    const auto& evaluator = term.binding.evaluator();
+    Mix(reinterpret_cast<std::uintptr_t>(evaluator.get()), stamp);
+    Mix(evaluator->version(), stamp);
+  }
+}
+
+const VertexBlocks& TermBlocks::Of(const Vertex& v) {
+  const std::size_t at = At(v.id().value);
+  if (at >= of_vertex_.size()) of_vertex_.resize(at + at / 2 + 1);
+  std::uint64_t stamp = kBegin;
+  Stamp(v.costs(), stamp);
+  Stamp(v.constraints(), stamp);
+  VertexBlocks& blocks = of_vertex_[at];
+  if (blocks.stamp != stamp) blocks = {&Membership(v), &Terms(v), stamp};
+  return blocks;
+}
+
+const EdgeBlocks& TermBlocks::Of(const Edge& e, bool ends) {
+  const std::size_t at = At(e.id().value);
+  if (at >= of_edge_.size()) of_edge_.resize(at + at / 2 + 1);
+  std::uint64_t stamp = kBegin;
+  Stamp(e.costs(), stamp);
+  Stamp(e.constraints(), stamp);
+  Mix(static_cast<std::uint64_t>(e.slacks().size()), stamp);
+  Mix(Of(e.u()).stamp, stamp);
+  Mix(Of(e.v()).stamp, stamp);
+  if (of_edge_[at].stamp != stamp) of_edge_[at] = {&Terms(e), {nullptr, nullptr}, stamp};
+  if (of_edge_[at].fixed[ends ? 1 : 0] == nullptr) {
+    of_edge_[at].fixed[ends ? 1 : 0] = &Fixed(e, ends);
+  }
+  return of_edge_[at];
 }
 
 }  // namespace switchyard

@@ -48,7 +48,24 @@ struct TermBlock {
   void Add(const Perspective& term, const std::vector<std::int32_t>& places);
 };
 
-/// The blocks of one transcription: written once for all that have the same terms.
+/// What a vertex asks for: places t, x.
+struct VertexBlocks {
+  const TermBlock* set = nullptr;    // x in tX
+  const TermBlock* terms = nullptr;  // costs and constraints
+  std::uint64_t stamp = 0;           // of all that these follow from
+};
+
+/// What an edge asks for: places t, x_u, x_v, slacks.
+struct EdgeBlocks {
+  const TermBlock* terms = nullptr;
+  /// Coordinates that its rows and its tail's leave one value, ascending; and with its head's rows,
+  /// where the path ends there.
+  const std::vector<FixedCoordinate>* fixed[2] = {nullptr, nullptr};
+  std::uint64_t stamp = 0;
+};
+
+/// The blocks of one transcription of a graph: written once for all that have the same terms, and
+/// found again by a stamp of evaluators and their versions.
 class TermBlocks {
  public:
   using Vertex = GraphOfConvexSets::Vertex;
@@ -56,16 +73,10 @@ class TermBlocks {
 
   explicit TermBlocks(GraphOfConvexSets::Transcription as) : as_(as) {}
 
-  /// x in tX: places t, x.
-  const TermBlock& Membership(const Vertex& v);
-  /// The vertex's costs and constraints: places t, x.
-  const TermBlock& Terms(const Vertex& v);
-  /// The edge's: places t, x_u, x_v, slacks. All throw InvalidArgument, naming it, for a term that
-  /// has no perspective.
-  const TermBlock& Terms(const Edge& e);
-  /// What an edge's rows, its tail's and, where the path ends there, its head's leave one value;
-  /// ascending.
-  const std::vector<FixedCoordinate>& Fixed(const Edge& e, bool ends);
+  /// Both throw InvalidArgument, naming it, for a term that has no perspective. What is returned
+  /// stays in place until the next call.
+  const VertexBlocks& Of(const Vertex& v);
+  const EdgeBlocks& Of(const Edge& e, bool ends);
 
  private:
   using Key = std::vector<std::uint64_t>;
@@ -78,6 +89,12 @@ class TermBlocks {
     TermBlock block;
   };
 
+  const TermBlock& Membership(const Vertex& v);
+  const TermBlock& Terms(const Vertex& v);
+  const TermBlock& Terms(const Edge& e);
+  const std::vector<FixedCoordinate>& Fixed(const Edge& e, bool ends);
+  template <class List>
+  void Stamp(const List& terms, std::uint64_t& stamp) const;
   template <class Owner, class PlaceOf>
   const TermBlock& Find(const Owner& owner, std::int32_t num_places, PlaceOf&& place_of);
   template <class List, class PlaceOf>
@@ -90,6 +107,8 @@ class TermBlocks {
   std::unordered_map<Key, std::unique_ptr<TermBlock>, Hash> of_terms_;
   std::unordered_map<Key, std::vector<FixedCoordinate>, Hash> fixed_;
   Key key_;  // of the owner at hand
+  std::vector<VertexBlocks> of_vertex_;  // by id
+  std::vector<EdgeBlocks> of_edge_;
 };
 
 }  // namespace switchyard

@@ -14,16 +14,11 @@ GcsTranscription::GcsTranscription(const PrunedGraph& graph, Transcription as, b
                                    TermBlocks* blocks)
     : graph_(graph),
       own_blocks_(as),
-      blocks_of_(blocks != nullptr ? *blocks : own_blocks_),
       plan_(graph, transitions),
       point_(graph.vertices.size()),
       edges_(graph.edges.size()),
       transitions_(plan_.all().size()) {
-  for (std::size_t a = 0; a < edges_.size(); ++a) {
-    for (const std::int32_t v : {graph.tail[a], graph.head[a]}) {
-      if (!point_[At(v)]) point_[At(v)] = graph.vertices[At(v)]->set().MaybeGetPoint();
-    }
-  }
+  FindBlocks(blocks != nullptr ? *blocks : own_blocks_);
   num_blocks_ = static_cast<std::int32_t>(edges_.size());
   for (std::size_t a = 0; a < edges_.size(); ++a) AddEdgeVariables(a);
   for (std::size_t k = 0; k < transitions_.size(); ++k) AddTransitionVariables(k);
@@ -33,6 +28,18 @@ GcsTranscription::GcsTranscription(const PrunedGraph& graph, Transcription as, b
   WriteCoupling();
   Finish();
   WriteHints();
+}
+
+void GcsTranscription::FindBlocks(TermBlocks& blocks) {
+  blocks_of_vertex_.resize(graph_.vertices.size());
+  for (std::size_t a = 0; a < edges_.size(); ++a) {
+    for (const std::int32_t v : {graph_.tail[a], graph_.head[a]}) {
+      if (blocks_of_vertex_[At(v)].set != nullptr) continue;
+      point_[At(v)] = graph_.vertices[At(v)]->set().MaybeGetPoint();
+      blocks_of_vertex_[At(v)] = blocks.Of(*graph_.vertices[At(v)]);
+    }
+    blocks_of_edge_.push_back(blocks.Of(*graph_.edges[a], graph_.head[a] == graph_.target));
+  }
 }
 
 // ---- variables ----
@@ -89,7 +96,7 @@ void GcsTranscription::AddEdgeVariables(std::size_t arc) {
   data_.x_lower[At(at.phi)] = edge.phi_value() == true ? 1 : 0;
   data_.x_upper[At(at.phi)] = 1;
   data_.integer[At(at.phi)] = 1;
-  const std::vector<FixedCoordinate>& fixed = FixedOf(arc);
+  const std::vector<FixedCoordinate>& fixed = *FixedOf(arc);
   const std::int32_t of_u = DimensionAt(graph_.tail[arc]);
   const auto of_v = std::find_if(fixed.begin(), fixed.end(),
                                  [&](const FixedCoordinate& c) { return c.place >= of_u; });
@@ -102,10 +109,6 @@ void GcsTranscription::AddEdgeVariables(std::size_t arc) {
   if (edge.slacks().size() > 0) {
     at.slack = AddVariables(static_cast<std::int32_t>(edge.slacks().size()));
   }
-}
-
-const std::vector<FixedCoordinate>& GcsTranscription::FixedOf(std::size_t arc) {
-  return blocks_of_.Fixed(*graph_.edges[arc], graph_.head[arc] == graph_.target);
 }
 
 void GcsTranscription::AddTransitionVariables(std::size_t k) {
@@ -163,20 +166,20 @@ void GcsTranscription::WriteEdge(std::size_t arc) {
   if (plan_.OwnsTail(arc)) {
     columns_.assign(1, {at.phi, 1});
     place(Tail(arc));
-    if (!PointAt(u)) WriteBlock(blocks_of_.Membership(edge.u()));
-    WriteBlock(blocks_of_.Terms(edge.u()));
+    if (!PointAt(u)) WriteBlock(*blocks_of_vertex_[At(u)].set);
+    WriteBlock(*blocks_of_vertex_[At(u)].terms);
   }
   if (plan_.OwnsHead(arc)) {
     columns_.assign(1, {at.phi, 1});
     place(Head(arc));
-    if (!PointAt(v)) WriteBlock(blocks_of_.Membership(edge.v()));
-    if (v == graph_.target || plan_.At(v)) WriteBlock(blocks_of_.Terms(edge.v()));
+    if (!PointAt(v)) WriteBlock(*blocks_of_vertex_[At(v)].set);
+    if (v == graph_.target || plan_.At(v)) WriteBlock(*blocks_of_vertex_[At(v)].terms);
   }
   columns_.assign(1, {at.phi, 1});
   place(Tail(arc));
   place(Head(arc));
   for (std::int32_t i = 0; i < edge.slacks().size(); ++i) columns_.push_back({at.slack + i, 1});
-  WriteBlock(blocks_of_.Terms(edge));
+  WriteBlock(*blocks_of_edge_[arc].terms);
   WriteSquares(at.phi);
 }
 
@@ -186,9 +189,9 @@ void GcsTranscription::WriteTransition(std::size_t k) {
   block_ = transitions_[k].block;
   columns_.assign(1, {transitions_[k].lambda, 1});
   for (std::int32_t i = 0; i < DimensionAt(t.vertex); ++i) columns_.push_back(CopyOf(t, k, i));
-  const GraphOfConvexSets::Vertex& v = *graph_.vertices[At(t.vertex)];
-  if (!PointAt(t.vertex)) WriteBlock(blocks_of_.Membership(v));
-  WriteBlock(blocks_of_.Terms(v));
+  const VertexBlocks& of = blocks_of_vertex_[At(t.vertex)];
+  if (!PointAt(t.vertex)) WriteBlock(*of.set);
+  WriteBlock(*of.terms);
   WriteSquares(transitions_[k].lambda);
 }
 

@@ -81,12 +81,15 @@ class GcsTranscription {
     sy_set record;
   };
 
+  void FindBlocks(TermBlocks& blocks);
   std::int32_t AddVariables(std::int32_t count);
   std::int32_t AddPoint(std::int32_t vertex);
   void AddEdgeVariables(std::size_t arc);
   void AddEnd(std::int32_t vertex, std::int32_t scale, std::span<const FixedCoordinate> fixed);
   void AddTransitionVariables(std::size_t k);
-  [[nodiscard]] const std::vector<FixedCoordinate>& FixedOf(std::size_t arc);
+  [[nodiscard]] const std::vector<FixedCoordinate>* FixedOf(std::size_t arc) const {
+    return blocks_of_edge_[arc].fixed[graph_.head[arc] == graph_.target ? 1 : 0];
+  }
   void WriteEdge(std::size_t arc);
   void WriteTransition(std::size_t k);
   void WriteBlock(const TermBlock& block);
@@ -127,7 +130,8 @@ class GcsTranscription {
 
   const PrunedGraph& graph_;
   TermBlocks own_blocks_;
-  TermBlocks& blocks_of_;
+  std::vector<VertexBlocks> blocks_of_vertex_;
+  std::vector<EdgeBlocks> blocks_of_edge_;  // by arc
   TransitionPlan plan_;
   std::vector<std::optional<Eigen::VectorXd>> point_;  // of each vertex whose set is one
   std::vector<EdgeVariables> edges_;

@@ -85,5 +85,41 @@ TEST_P(GeneralLies, AFailureInADiveIsItsReasonAndNoMore) {
   EXPECT_GT(told, 0);
 }
 
+// min -y over y <= x, x and z integer. Rounding gets no answer; the dive's first relaxed point is
+// rounded as it stands, to (3, 1, 1), and nothing is below it. Then the best y for x = 3 is 3.
+TEST(GeneralDive, APointFoundOnTheWayGetsTheBestRest) {
+  switchyard::testing::FakeBackend fake;
+  fake.host().Register(plugin::Plugin<rounding::RelaxAndRound>("native", "1.0"));
+  int solves = 0;
+  fake.behaviour().answer = [&](const sy_problem& p, const sy_control&, sy_result& r) {
+    ++solves;
+    const bool fixed = p.x_lower[0] == p.x_upper[0] && p.x_lower[1] == p.x_upper[1];
+    r.termination = SY_INFEASIBLE;
+    if (fixed ? solves == 2 : solves > 3) return;
+    r.termination = SY_OPTIMAL;
+    r.primal = SY_FEASIBLE;
+    for (int j = 0; j < 2; ++j) r.x[j] = p.x_lower[j] + (p.x_lower[j] < p.x_upper[j] ? 0.5 : 0);
+    r.x[2] = fixed ? r.x[0] : 1;
+  };
+  ProblemData d;
+  d.num_vars = 3;  // x, z, y
+  d.q = {0, 0, -1};
+  d.x_lower = {1, 0, 0};
+  d.x_upper = {9, 9, 9};
+  d.integer = {1, 1, 0};
+  d.P = Csc(3, 3);
+  d.F = Csc(0, 3);
+  d.A = Csc(1, 3);
+  d.A.row = {0, 0};
+  d.A.value = {-1, 1};
+  d.A.start = {0, 1, 1, 2};
+  d.row_lower = {-kInfinity};
+  d.row_upper = {0};
+  const Problem problem(d);
+  const StrategyAnswer answer = RelaxAndRoundOn(fake.host(), problem.view(), {"dives=2"});
+  ASSERT_EQ(answer.result.primal, SY_FEASIBLE) << answer.error << answer.text;
+  EXPECT_EQ(answer.x, (std::vector<double>{3, 1, 3}));
+}
+
 }  // namespace
 }  // namespace switchyard::test

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <iostream>
 
+#include "solvers/rounding/integer_problem.hpp"
 #include "switchyard/hints.h"
 #include "tests/solvers/grid_graph.hpp"
 #include "tests/solvers/small_integer_problem.hpp"
@@ -206,6 +207,39 @@ TEST_F(General, WhatOnlyIntegralityContradictsIsNoProofUnlessBoxesShowIt) {
   const StrategyAnswer two = RelaxAndRoundOn(*host_, hidden.view());
   EXPECT_NE(two.result.termination, SY_INFEASIBLE);
   EXPECT_EQ(two.result.primal, SY_NO_POINT);
+}
+
+TEST(IntegerProblem, LargeIntegersExcuseNoViolatedRow) {
+  const Problem odd = Knapsack({1, 1}, {2, 2}, 3, 3, -kInfinity, kInfinity);
+  const rounding::IntegerProblem whole(odd.view());
+  EXPECT_THAT(whole.WhatIsViolatedBy({1e7, 1 - 1e7}, 1e-6), HasSubstr("row[0]"));
+  const Problem even = Knapsack({1, 1}, {2, 2}, 2, 2, -kInfinity, kInfinity);
+  EXPECT_EQ(rounding::IntegerProblem(even.view()).WhatIsViolatedBy({1e7, 1 - 1e7}, 1e-6), "");
+}
+
+TEST(IntegerProblem, LocksAreRowsAndConesThatMayCeaseToHold) {
+  // 2 x - 3 y <= 4, x + y = 1, and (x, y, 1) in the second-order cone.
+  Problem problem = Knapsack({0, 0}, {2, -3}, -kInfinity, 4, 0, 9);
+  problem.Change([](ProblemData& d) {
+    Csc other(1, 2), f(3, 2);
+    other.row = {0, 0};
+    other.value = {1, 1};
+    f.row = {0, 1};
+    f.value = {1, 1};
+    other.start = f.start = {0, 1, 2};
+    d.A = StackRows(d.A, other);
+    d.row_lower = {-kInfinity, 1};
+    d.row_upper = {4, 1};
+    d.F = f;
+    d.g = {0, 0, 1};
+    d.cones = {{SY_CONE_SECOND_ORDER, 3, 0}};
+  });
+  const rounding::IntegerProblem whole(problem.view());
+  ASSERT_EQ(whole.locks().size(), 2u);
+  EXPECT_EQ(whole.locks()[0].up, 2);    // the first row, the equation
+  EXPECT_EQ(whole.locks()[0].down, 2);  // the equation, the cone's head
+  EXPECT_EQ(whole.locks()[1].up, 2);    // the equation, the cone
+  EXPECT_EQ(whole.locks()[1].down, 3);
 }
 
 TEST_F(General, NoPointFromAnyTryIsSaidWithAReason) {
