@@ -1,22 +1,26 @@
 // What a second search of a graph costs before a backend is asked, beside building the graph and
 // writing its first program.
 //
-//   search_again [VERTICES [DEGREE]]
+//   search_again [VERTICES [DEGREE [boxes | polytopes]]]
 //
-// Random boxes in the plane, each joined to its DEGREE nearest (1000, 5); an L2 cost of its own on
-// every edge, a quadratic one on every vertex. Then another source and target, other costs, edges
-// switched off: the seconds of presolve and lowering, the median of several, and what part they are
-// of the first build and lowering.
+// Random boxes, or polytopes of twelve faces, in R^3, each joined to its DEGREE nearest (1000, 5);
+// an L2 cost of its own on every edge, a quadratic one on every vertex. Then another source and
+// target, other costs, edges switched off: the seconds of presolve and lowering, the median of
+// several, and what part they are of the first build and lowering.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <functional>
+#include <numeric>
 #include <random>
 #include <string>
 #include <vector>
 
 #include "switchyard/gcs/shortest_path.hpp"
+#include "switchyard/host/host.hpp"
+#include "switchyard/sets/hpolyhedron.hpp"
 #include "switchyard/sets/hyperrectangle.hpp"
 
 namespace {
@@ -34,23 +38,36 @@ struct Built {
   std::vector<std::shared_ptr<L2NormCost>> costs;
 };
 
-void Build(const std::vector<Eigen::Vector2d>& centers,
-           const std::vector<std::pair<int, int>>& pairs, Built& built) {
-  const Eigen::Vector2d half(0.3, 0.2);
-  for (const Eigen::Vector2d& c : centers) {
-    auto* v = built.graph.AddVertex(Hyperrectangle(c - half, c + half));
-    v->AddCost(Binding<Cost>(std::make_shared<QuadraticCost>(0.1 * Eigen::Matrix2d::Identity(),
+/// {x : |x - c|_inf <= 0.4} cut by six more halfspaces.
+HPolyhedron Polytope(const Eigen::Vector3d& c, std::mt19937_64& engine) {
+  Eigen::MatrixXd A(12, 3);
+  A << Eigen::Matrix3d::Identity(), -Eigen::Matrix3d::Identity(), Eigen::MatrixXd::Zero(6, 3);
+  std::normal_distribution<double> normal;
+  for (int i = 6; i < 12; ++i) {
+    A.row(i) = Eigen::RowVector3d(normal(engine), normal(engine), normal(engine)).normalized();
+  }
+  return {A, Eigen::VectorXd(A * c + Eigen::VectorXd::Constant(12, 0.4))};
+}
+
+void Build(const std::vector<Eigen::Vector3d>& centers,
+           const std::vector<std::pair<int, int>>& pairs, bool polytopes, Built& built) {
+  const Eigen::Vector3d half(0.3, 0.2, 0.4);
+  std::mt19937_64 engine(2);
+  for (const Eigen::Vector3d& c : centers) {
+    auto* v = polytopes ? built.graph.AddVertex(Polytope(c, engine))
+                        : built.graph.AddVertex(Hyperrectangle(c - half, c + half));
+    v->AddCost(Binding<Cost>(std::make_shared<QuadraticCost>(0.1 * Eigen::Matrix3d::Identity(),
                                                              -0.1 * c, 0.05 * c.squaredNorm()),
                              v->x()));
     built.vertices.push_back(v);
   }
-  Eigen::MatrixXd A(2, 4);
-  A << -1, 0, 1, 0, 0, -1, 0, 1;
+  Eigen::MatrixXd A(3, 6);
+  A << -Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Identity();
   for (const auto& [i, j] : pairs) {
     auto* e = built.graph.AddEdge(built.vertices[std::size_t(i)], built.vertices[std::size_t(j)]);
-    VectorXDecisionVariable x(4);
+    VectorXDecisionVariable x(6);
     x << e->xu(), e->xv();
-    built.costs.push_back(std::make_shared<L2NormCost>(A, Eigen::Vector2d::Zero()));
+    built.costs.push_back(std::make_shared<L2NormCost>(A, Eigen::Vector3d::Zero()));
     e->AddCost(Binding<Cost>(built.costs.back(), x));
   }
 }
@@ -66,30 +83,25 @@ void Report(const char* what, double first, std::vector<double> later) {
   fmt::print("{:<28} {:>10.3f} ms {:>8.3f} of the first\n", what, 1e3 * median, median / first);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  const int count = argc > 1 ? std::stoi(argv[1]) : 1000;
-  const int degree = argc > 2 ? std::stoi(argv[2]) : 5;
-  std::mt19937_64 engine(1);
-  const double side = std::sqrt(double(count));
-  std::uniform_real_distribution<double> at(0, side);
-  std::vector<Eigen::Vector2d> centers;
-  for (int i = 0; i < count; ++i) centers.emplace_back(at(engine), at(engine));
+/// Each to its nearest.
+std::vector<std::pair<int, int>> Neighbours(const std::vector<Eigen::Vector3d>& centers,
+                                            int degree) {
   std::vector<std::pair<int, int>> pairs;
+  const auto count = static_cast<int>(centers.size());
   for (int i = 0; i < count; ++i) {
-    std::vector<int> near(static_cast<std::size_t>(count));
-    for (int j = 0; j < count; ++j) near[std::size_t(j)] = j;
-    std::partial_sort(near.begin(), near.begin() + degree + 1, near.end(), [&](int a, int b) {
-      return (centers[std::size_t(a)] - centers[std::size_t(i)]).squaredNorm() <
-             (centers[std::size_t(b)] - centers[std::size_t(i)]).squaredNorm();
-    });
+    const auto apart = [&](int j) {
+      return (centers[std::size_t(j)] - centers[std::size_t(i)]).squaredNorm();
+    };
+    std::vector<int> near(centers.size());
+    std::iota(near.begin(), near.end(), 0);
+    std::partial_sort(near.begin(), near.begin() + degree + 1, near.end(),
+                      [&](int a, int b) { return apart(a) < apart(b); });
     for (int k = 1; k <= degree; ++k) pairs.emplace_back(i, near[std::size_t(k)]);
   }
-  auto start = Clock::now();
-  Built built;
-  Build(centers, pairs, built);
-  const double build = Since(start);
+  return pairs;
+}
+
+void Compare(Built& built, double build, std::mt19937_64& engine) {
   ShortestPathSearch search(built.graph);
   GraphOfConvexSetsOptions options;
   options.solver_options.time_limit = 1e-9;  // only what comes before a backend
@@ -98,23 +110,23 @@ int main(int argc, char** argv) {
   };
   const std::size_t last = built.vertices.size() - 1;
   const double lower = find(0, last);
-  const double first = build + lower;
-  fmt::print("{} vertices, {} edges: built in {:.3f} ms, first program {:.3f} ms\n", count,
-             pairs.size(), 1e3 * build, 1e3 * lower);
+  fmt::print("{} vertices, {} edges: built in {:.3f} ms, first program {:.3f} ms\n",
+             built.vertices.size(), built.costs.size(), 1e3 * build, 1e3 * lower);
   std::uniform_int_distribution<std::size_t> any(0, last);
   const auto repeat = [&](const char* what, const std::function<double()>& once) {
     std::vector<double> seconds;
     for (int k = 0; k < 9; ++k) seconds.push_back(once());
-    Report(what, first, seconds);
+    Report(what, build + lower, seconds);
   };
   repeat("the same", [&] { return find(0, last); });
   repeat("another source", [&] { return find(any(engine), last); });
   repeat("another target", [&] { return find(0, any(engine)); });
   repeat("ten other costs", [&] {
-    Eigen::MatrixXd A(2, 4);
-    A << -2, 0, 2, 0, 0, -1, 0, 1;
+    Eigen::MatrixXd A(3, 6);
+    A << -Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Identity();
+    A(0, 0) = -2;
     for (int k = 0; k < 10; ++k) {
-      built.costs[any(engine)]->UpdateCoefficients(A, Eigen::Vector2d::Zero());
+      built.costs[any(engine)]->UpdateCoefficients(A, Eigen::Vector3d::Zero());
     }
     return find(0, last);
   });
@@ -123,5 +135,23 @@ int main(int argc, char** argv) {
     for (int k = 0; k < 10; ++k) edges[any(engine)]->AddPhiConstraint(false);
     return find(0, last);
   });
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const int count = argc > 1 ? std::stoi(argv[1]) : 1000;
+  const int degree = argc > 2 ? std::stoi(argv[2]) : 5;
+  const bool polytopes = argc > 3 && std::string(argv[3]) == "polytopes";
+  std::mt19937_64 engine(1);
+  std::uniform_real_distribution<double> at(0, std::cbrt(double(count)));
+  std::vector<Eigen::Vector3d> centers;
+  for (int i = 0; i < count; ++i) centers.emplace_back(at(engine), at(engine), at(engine));
+  const std::vector<std::pair<int, int>> pairs = Neighbours(centers, degree);
+  (void)Host::Default().backends();  // finds the plugins
+  const auto start = Clock::now();
+  Built built;
+  Build(centers, pairs, polytopes, built);
+  Compare(built, Since(start), engine);
   return 0;
 }

@@ -8,6 +8,7 @@ namespace {
 
 constexpr int kRounds = 4;
 constexpr double kRounding = 1e-13;  // relative, of what a side was computed from
+constexpr double kWidth = 1e-9;      // relative, of a coordinate: more is no matter of rounding
 
 std::size_t At(std::int32_t i) { return static_cast<std::size_t>(i); }
 
@@ -92,9 +93,11 @@ class Propagation {
     double& mine = is_upper ? upper_[j] : lower_[j];
     const double other = is_upper ? lower_[j] : upper_[j];
     const double sign = is_upper ? 1 : -1;
+    const double width = kWidth * (1 + std::abs(other));
+    if (rounding > width) return;  // beside the others' the coefficient is next to nothing
     if (sign * (mine - end) <= rounding) return;
     if (sign * (end - other) <= rounding) {
-      if (sign * (other - end) > 1e-9 * (1 + std::abs(other))) contradiction_ = true;
+      if (sign * (other - end) > width) contradiction_ = true;
       end = other;  // no width is left but by rounding
     }
     moved_ = true;

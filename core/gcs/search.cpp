@@ -23,6 +23,13 @@ std::string NamesOf(const SolverInterface* solver) {
   return solver == nullptr ? "" : solver->solver_id().name();
 }
 
+void Say(const std::string& text, sy_result& result) {
+  if (result.text == nullptr || result.text_size == 0) return;
+  const std::size_t length = std::min<std::size_t>(text.size(), result.text_size - 1);
+  std::copy_n(text.data(), length, result.text);
+  result.text[length] = '\0';
+}
+
 }  // namespace
 
 Search::Search(const GraphOfConvexSets& graph, const Vertex& source, const Vertex& target,
@@ -91,7 +98,8 @@ void Search::Transcribe() {
     } catch (...) {  // a path that is not listed is not lost: the answer is the strategy's
     }
   };
-  if (!SameTerms()) {
+  tags_ = TagsOf(pruned_, as_);
+  if (!tags_.same) {
     paths.solve_path = [](void* context, const std::int32_t* arcs, std::int32_t count,
                           const sy_control* control, sy_result* result, sy_error* error) noexcept {
       return plugin::Guarded(error, [&] {
@@ -114,31 +122,6 @@ void Search::WarnOfUnbounded() {
   }
   if (unbounded.size() <= kNamed) return;
   result().notes.push_back(Text("and ", unbounded.size() - kNamed, " more vertices like it"));
-}
-
-template <class Holds>
-bool Search::AllTerms(Holds&& holds) const {
-  const auto all = [&](const auto& terms) {
-    return std::all_of(terms.begin(), terms.end(),
-                       [&](const auto& term) { return holds(term.in); });
-  };
-  return std::all_of(pruned_.vertices.begin(), pruned_.vertices.end(),
-                     [&](const Vertex* v) { return all(v->costs()) && all(v->constraints()); }) &&
-         std::all_of(pruned_.edges.begin(), pruned_.edges.end(),
-                     [&](const Edge* e) { return all(e->costs()) && all(e->constraints()); });
-}
-
-bool Search::SameTerms() const {
-  return AllTerms([this](GraphOfConvexSets::TranscriptionSet in) {
-    return in.contains(as_) == in.contains(Transcription::kRestriction);
-  });
-}
-
-// A bound counts only terms that the restriction has too.
-bool Search::Bounds() const {
-  return AllTerms([this](GraphOfConvexSets::TranscriptionSet in) {
-    return !in.contains(as_) || in.contains(Transcription::kRestriction);
-  });
 }
 
 bool Search::Load() {
@@ -250,6 +233,14 @@ Search::Tried Search::SolveRestriction(const std::vector<const Edge*>& edges,
 void Search::SolvePath(const std::int32_t* arcs, std::int32_t count, const sy_control& control,
                        sy_result& result) {
   const std::vector<const Edge*> edges = EdgesOf(arcs, count);
+  for (const Edge* edge : pruned_.edges) {
+    const bool missing =
+        edge->phi_value() == true && std::find(edges.begin(), edges.end(), edge) == edges.end();
+    if (!missing) continue;
+    result.termination = SY_INFEASIBLE;
+    result.primal = SY_NO_POINT;
+    return Say(Text("edge ", edge->name(), " must be on the path"), result);
+  }
   SolverOptions options = options_.restriction_solver_options.value_or(options_.solver_options);
   options.time_limit = std::min(options.time_limit, control.seconds);
   options.threads = control.threads;
@@ -261,12 +252,7 @@ void Search::SolvePath(const std::int32_t* arcs, std::int32_t count, const sy_co
   result.objective = tried.result.objective;
   result.primal = tried.result.primal == PointKind::kFeasible ? SY_FEASIBLE : SY_NO_POINT;
   std::fill(result.x, result.x + transcription_->problem().data().num_vars, std::nan(""));
-  if (result.text != nullptr && result.text_size > 0) {
-    const std::string& said = tried.result.message;
-    const std::size_t length = std::min<std::size_t>(said.size(), result.text_size - 1);
-    std::copy_n(said.data(), length, result.text);
-    result.text[length] = '\0';
-  }
+  Say(tried.result.message, result);
   const std::lock_guard lock(mutex_);
   tried_.insert_or_assign(edges, std::move(tried));
 }

@@ -11,6 +11,7 @@
 #include "core/gcs/path_point.hpp"
 #include "core/gcs/pruning.hpp"
 #include "core/gcs/term_block.hpp"
+#include "core/gcs/term_tags.hpp"
 #include "core/gcs/transcription.hpp"
 #include "core/solve/choice.hpp"
 #include "core/solve/recovery.hpp"
@@ -50,19 +51,16 @@ class Search {
   bool SolveOnce(const ProblemData& data);
   void SolveWhole();
   void Recover();
+  void JudgeByTags();
   void RecoverWhole();
+  void SupportOptimum(double cost);
   void RecoverFlow();
-  void RecoverPath(const PathPoints& path);
-  double CheckPath(const PathPoints& path);
+  void RecoverPath(const PathPoints& path, const Tried* tried = nullptr);
+  double CheckPath(const PathPoints& path, const Tried* tried);
   void CapRelaxation();
   void RecoverRelaxation();
   void RecoverBestTried();
   [[nodiscard]] bool rounds() const;
-  /// Has every term of a restriction its part in this transcription, and the other way round?
-  [[nodiscard]] bool SameTerms() const;
-  [[nodiscard]] bool Bounds() const;
-  template <class Holds>
-  [[nodiscard]] bool AllTerms(Holds&& holds) const;
   [[nodiscard]] std::vector<const Edge*> EdgesOf(const std::int32_t* arcs,
                                                  std::int32_t count) const;
   void SolvePath(const std::int32_t* arcs, std::int32_t count, const sy_control& control,
@@ -86,6 +84,7 @@ class Search {
   const std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
   ShortestPath answer_;
   PrunedGraph pruned_;
+  TermTags tags_;
   std::unique_ptr<GcsTranscription> transcription_;
   BackendChoice choice_;
   std::unique_ptr<AnswerBuffers> raw_;

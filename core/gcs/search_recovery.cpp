@@ -25,11 +25,7 @@ void Search::Recover() {
   result().message = raw_->text.data();
   result().iterations = raw.iterations;
   result().nodes = raw.nodes;
-  if (Bounds() && std::isfinite(raw.bound)) {
-    result().bound = raw.bound;
-  } else if (!Bounds()) {
-    result().notes.emplace_back("no bound: a term of the relaxation is not one of the restriction");
-  }
+  JudgeByTags();
   if (std::isfinite(raw.relaxed)) RecoverFlow();
   if (as_ == Transcription::kMIP) {
     RecoverWhole();
@@ -41,6 +37,27 @@ void Search::Recover() {
     RecoverRelaxation();
   }
   result().seconds.recover += Since(start);
+}
+
+// Of terms that restrictions lack, or costs that they alone have, nothing follows for paths.
+void Search::JudgeByTags() {
+  const sy_result& raw = raw_->raw;
+  const char* what = as_ == Transcription::kMIP ? "mixed-integer program" : "relaxation";
+  if (tags_.bounds) {
+    if (std::isfinite(raw.bound)) result().bound = raw.bound;
+    return;
+  }
+  result().notes.push_back(
+      tags_.relaxes ? Text("no bound: a cost of the restriction that is not one of the ", what,
+                           " may be negative")
+                    : Text("no bound: a term of the ", what, " is not one of the restriction"));
+  if (result().termination == Termination::kOptimal) {
+    result().termination = Termination::kLocallyOptimal;
+  }
+  const bool alone = as_ == Transcription::kRelaxation && !rounds();
+  if (result().termination != Termination::kInfeasible || tags_.relaxes || alone) return;
+  result().termination = Termination::kNoPath;
+  result().message += Text("; the ", what, " is infeasible, by terms that no path has");
 }
 
 void Search::RecoverFlow() {
@@ -58,7 +75,6 @@ void Search::RecoverWhole() {
   if (!HasPoint(raw_->raw)) return;
   const PathPoints path = PathIn(pruned_, *transcription_, raw_->vectors.x);
   if (path.edges.empty()) return RecoverPath(path);
-  const Termination whole = result().termination;
   const double cost = raw_->raw.objective;
   Tried tried = SolveRestriction(
       path.edges, options_.restriction_solver_options.value_or(options_.solver_options));
@@ -74,18 +90,28 @@ void Search::RecoverWhole() {
   }
   tried_.insert_or_assign(path.edges, std::move(tried));
   RecoverBestTried();
-  const double above = result().objective - cost;
-  const double relative = std::isnan(options_.solver_options.relative_gap)
-                              ? 1e-4
-                              : options_.solver_options.relative_gap;
-  const double allowed = std::max(relative * std::abs(cost), kSupported * (1 + std::abs(cost)));
-  if (whole != Termination::kOptimal || above <= allowed || !SameTerms()) return;
-  result().termination = Termination::kLocallyOptimal;
-  result().notes.push_back(
-      Text("the path costs ", above, " more than the mixed-integer program says"));
+  if (result().termination == Termination::kOptimal) SupportOptimum(cost);
 }
 
-void Search::RecoverPath(const PathPoints& path) {
+// An optimal path costs what the mixed-integer program says, and no more than its bound but for the
+// gap that was asked for.
+void Search::SupportOptimum(double cost) {
+  const SolverOptions& asked = options_.solver_options;
+  const auto known = [](double gap, double own) { return std::isnan(gap) ? own : gap; };
+  const double size = std::abs(result().objective);
+  const double allowed = std::max({known(asked.relative_gap, 1e-4) * size,
+                                   known(asked.absolute_gap, 0), kSupported * (1 + size)});
+  const auto doubt = [this](double above, const char* what) {
+    result().termination = Termination::kLocallyOptimal;
+    result().notes.push_back(Text("the path costs ", above, " more than ", what));
+  };
+  const double above = result().objective - cost;
+  if (above > allowed) return doubt(above, "the mixed-integer program says");
+  const double apart = result().objective - result().bound;
+  if (apart > allowed) doubt(apart, "the bound of whoever calls it optimal");
+}
+
+void Search::RecoverPath(const PathPoints& path, const Tried* tried) {
   if (path.edges.empty()) {
     result().termination = Termination::kNumericalTrouble;
     result().notes.emplace_back("the flows of the answer form no path");
@@ -94,43 +120,43 @@ void Search::RecoverPath(const PathPoints& path) {
   answer_.edges = path.edges;
   answer_.points = path.points;
   SetPathPoint(graph_, path, result());
-  const double violation = CheckPath(path);
+  const double violation = CheckPath(path, tried);
   result().primal = violation <= kSupported ? PointKind::kFeasible : PointKind::kNearlyFeasible;
   if (violation <= kSupported) return CapRelaxation();
   result().notes.push_back(Text("our check finds the path's points violated by ",
                                 result().violation.rows, " in rows and ", result().violation.cones,
-                                " in cones"));
+                                " in cones, ", violation, " relative to their terms"));
   result().termination = Termination::kNumericalTrouble;
 }
 
 // Cost and violation of the path's points in the graph's own terms; the latter in units of
-// kSupported too. A set that is said with variables of its own is asked how far its point is from
-// it, relative to the point.
-double Search::CheckPath(const PathPoints& path) {
+// kSupported too. What a set is said with beside its point stands in the program of the path where
+// there is one, else in the whole: its rows are checked there.
+double Search::CheckPath(const PathPoints& path, const Tried* tried) {
   const std::vector<const Vertex*> vertices = VerticesOf(path.edges);
+  const auto check = [&](const MathematicalProgram& of, const MathematicalProgramResult& point) {
+    Eigen::VectorXd x(of.num_vars());
+    for (int j = 0; j < of.num_vars(); ++j) x[j] = point.GetSolution(of.decision_variable(j));
+    result().violation = ViolationOf(of, x);
+    result().objective = of.EvalCosts(x);
+    const Lowering lowering(of);
+    return RelativeViolation(lowering.problem().view(), lowering.Extend(of, x));
+  };
+  if (tried != nullptr) return check(*tried->program, tried->result);
   const auto program = RestrictionOf(vertices, path.edges, SetsOf::kWithoutVariables);
-  Eigen::VectorXd x(program->num_vars());
-  for (int j = 0; j < program->num_vars(); ++j) {
-    x[j] = result().GetSolution(program->decision_variable(j));
-  }
-  result().objective = program->EvalCosts(x);
-  result().violation = ViolationOf(*program, x);
-  const Lowering lowering(*program);
-  double worst = RelativeViolation(lowering.problem().view(), lowering.Extend(*program, x));
-  for (std::size_t k = 0; k < vertices.size(); ++k) {
-    const ConvexSet& set = vertices[k]->set();
-    if (set.scaled().num_aux == 0) continue;
-    const double apart = set.Violation(path.points[k]);
-    result().violation.rows = std::max(result().violation.rows, apart);
-    worst = std::max(worst, apart / (1 + path.points[k].lpNorm<Eigen::Infinity>()));
-  }
-  return worst;
+  const double worst = check(*program, result());
+  const bool all = std::all_of(vertices.begin(), vertices.end(),
+                               [](const Vertex* v) { return v->set().scaled().num_aux == 0; });
+  if (all) return worst;
+  sy_problem whole = transcription_->problem().view();
+  whole.integer = nullptr;
+  return std::max(worst, RelativeViolation(whole, raw_->vectors.x));
 }
 
 // A path's points are points of the relaxation too, so its optimum is no higher than the path's
 // cost, whatever an inexact solve of it says.
 void Search::CapRelaxation() {
-  if (!(answer_.relaxation_cost > result().objective) || !Bounds()) return;
+  if (!(answer_.relaxation_cost > result().objective) || !tags_.bounds) return;
   const double above = answer_.relaxation_cost - result().objective;
   answer_.relaxation_cost = result().objective;
   if (above <= kSupported * (1 + std::abs(result().objective))) return;
@@ -154,7 +180,7 @@ void Search::RecoverBestTried() {
     path.points.push_back(best->result.GetSolution(v->x()));
   }
   for (const Edge* edge : *edges) path.slacks.push_back(best->result.GetSolution(edge->slacks()));
-  RecoverPath(path);
+  RecoverPath(path, best);
 }
 
 void Search::RecoverRelaxation() {

@@ -116,9 +116,10 @@ const Perspective& TermBlocks::PerspectiveOf(const std::string& owner, const aut
 }
 
 template <class Owner, class PlaceOf>
-const TermBlock& TermBlocks::Find(const Owner& owner, std::int32_t num_places, PlaceOf&& place_of) {
+const TermBlock& TermBlocks::Find(const Owner& owner, bool costs, std::int32_t num_places,
+                                  PlaceOf&& place_of) {
   key_.assign(1, static_cast<std::uint64_t>(num_places));
-  ReadTerms(owner.costs(), place_of);
+  if (costs) ReadTerms(owner.costs(), place_of);
   ReadTerms(owner.constraints(), place_of);
   const auto found = of_terms_.find(key_);
   if (found != of_terms_.end()) return *found->second;
@@ -132,13 +133,13 @@ const TermBlock& TermBlocks::Find(const Owner& owner, std::int32_t num_places, P
       block->Add(PerspectiveOf(owner.name(), term.binding), places);
     }
   };
-  add(owner.costs());
+  if (costs) add(owner.costs());
   add(owner.constraints());
   return *of_terms_.emplace(key_, std::move(block)).first->second;
 }
 
-const TermBlock& TermBlocks::Terms(const Vertex& v) {
-  return Find(v, 1 + v.ambient_dimension(), [&](Variable x) { return 1 + Among(x, v.x()); });
+const TermBlock& TermBlocks::Terms(const Vertex& v, bool costs) {
+  return Find(v, costs, 1 + v.ambient_dimension(), [&](Variable x) { return 1 + Among(x, v.x()); });
 }
 
 const TermBlock& TermBlocks::Terms(const Edge& e) {
@@ -149,7 +150,7 @@ const TermBlock& TermBlocks::Terms(const Edge& e) {
     const auto slack = std::find(e.slacks().begin(), e.slacks().end(), x);
     return 1 + of_u + of_v + static_cast<std::int32_t>(slack - e.slacks().begin());
   };
-  return Find(e, 1 + of_u + of_v + static_cast<std::int32_t>(e.slacks().size()), place_of);
+  return Find(e, true, 1 + of_u + of_v + static_cast<std::int32_t>(e.slacks().size()), place_of);
 }
 
 const std::vector<FixedCoordinate>& TermBlocks::Fixed(const Edge& e, bool ends) {
@@ -186,8 +187,10 @@ const VertexBlocks& TermBlocks::Of(const Vertex& v) {
   Stamp(v.costs(), stamp);
   Stamp(v.constraints(), stamp);
   VertexBlocks& blocks = of_vertex_[at];
-  if (blocks.stamp != stamp) blocks = {&Membership(v), &Terms(v), stamp};
-  return blocks;
+  if (blocks.stamp == stamp) return blocks;
+  const SetBox& box = v.set().bounding_box();
+  const bool open = !box.empty && !box.is_finite() && !v.constraints().empty();
+  return blocks = {&Membership(v), &Terms(v, true), open ? &Terms(v, false) : nullptr, stamp};
 }
 
 const EdgeBlocks& TermBlocks::Of(const Edge& e, bool ends) {

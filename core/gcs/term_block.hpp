@@ -52,7 +52,9 @@ struct TermBlock {
 struct VertexBlocks {
   const TermBlock* set = nullptr;    // x in tX
   const TermBlock* terms = nullptr;  // costs and constraints
-  std::uint64_t stamp = 0;           // of all that these follow from
+  /// The latter alone, where without them the set is not known to be bounded; else null.
+  const TermBlock* constraints = nullptr;
+  std::uint64_t stamp = 0;  // of all that these follow from
 };
 
 /// What an edge asks for: places t, x_u, x_v, slacks.
@@ -90,13 +92,14 @@ class TermBlocks {
   };
 
   const TermBlock& Membership(const Vertex& v);
-  const TermBlock& Terms(const Vertex& v);
+  const TermBlock& Terms(const Vertex& v, bool costs);
   const TermBlock& Terms(const Edge& e);
   const std::vector<FixedCoordinate>& Fixed(const Edge& e, bool ends);
   template <class List>
   void Stamp(const List& terms, std::uint64_t& stamp) const;
   template <class Owner, class PlaceOf>
-  const TermBlock& Find(const Owner& owner, std::int32_t num_places, PlaceOf&& place_of);
+  const TermBlock& Find(const Owner& owner, bool costs, std::int32_t num_places,
+                        PlaceOf&& place_of);
   template <class List, class PlaceOf>
   void ReadTerms(const List& terms, PlaceOf&& place_of);
   const Perspective& PerspectiveOf(const std::string& owner, const auto& binding);
@@ -106,7 +109,7 @@ class TermBlocks {
   std::unordered_map<const ConvexSet*, OfSet> of_set_;
   std::unordered_map<Key, std::unique_ptr<TermBlock>, Hash> of_terms_;
   std::unordered_map<Key, std::vector<FixedCoordinate>, Hash> fixed_;
-  Key key_;  // of the owner at hand
+  Key key_;                              // of the owner at hand
   std::vector<VertexBlocks> of_vertex_;  // by id
   std::vector<EdgeBlocks> of_edge_;
 };

@@ -172,8 +172,13 @@ void GcsTranscription::WriteEdge(std::size_t arc) {
   if (plan_.OwnsHead(arc)) {
     columns_.assign(1, {at.phi, 1});
     place(Head(arc));
-    if (!PointAt(v)) WriteBlock(*blocks_of_vertex_[At(v)].set);
-    if (v == graph_.target || plan_.At(v)) WriteBlock(*blocks_of_vertex_[At(v)].terms);
+    const VertexBlocks& of = blocks_of_vertex_[At(v)];
+    if (!PointAt(v)) WriteBlock(*of.set);
+    if (v == graph_.target || plan_.At(v)) {
+      WriteBlock(*of.terms);
+    } else if (of.constraints != nullptr) {
+      WriteBlock(*of.constraints);
+    }
   }
   columns_.assign(1, {at.phi, 1});
   place(Tail(arc));

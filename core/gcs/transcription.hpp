@@ -26,7 +26,8 @@ namespace switchyard {
 ///   degree    out <= 1 elsewhere
 ///   spatial   sum_out y - sum_in z = 0 elsewhere
 ///   block e   y_e in phi_e X_u, z_e in phi_e X_v, the edge's own constraints and those of u (of v
-///             where v is the target)
+///             where v is the target; v's constraints too where its set alone is not bounded,
+///             so that z_e is 0 where phi_e is)
 ///
 /// and at vertices that count transitions (e, f), instead of flow and spatial rows,
 ///   block ef  w_ef in lambda_ef X_v, the terms of v
@@ -39,9 +40,9 @@ class GcsTranscription {
  public:
   using Transcription = GraphOfConvexSets::Transcription;
 
-  /// `transitions`: may vertices count them? `blocks`: of the same transcription, kept between
-  /// graphs that share terms; nullptr: none. Throws InvalidArgument, naming it, for a term that has
-  /// no perspective.
+  /// `transitions`: may vertices count them? `blocks`: of the same transcription of the same
+  /// graph, kept between its prunings; nullptr: none. Throws InvalidArgument, naming it, for a term
+  /// that has no perspective.
   GcsTranscription(const PrunedGraph& graph, Transcription as, bool transitions = true,
                    TermBlocks* blocks = nullptr);
   GcsTranscription(const GcsTranscription&) = delete;

@@ -25,9 +25,12 @@ double BoundOver(const sy_problem& problem, const Answer& relaxed, const double*
 }  // namespace
 
 double ProvenBound(const sy_problem& problem, const Answer& relaxed, double cutoff) {
-  if (!(cutoff < kInfinity)) return BoundOver(problem, relaxed, problem.x_lower, problem.x_upper);
+  if (!(cutoff < kInfinity)) {
+    const double own = BoundOver(problem, relaxed, problem.x_lower, problem.x_upper);
+    if (own > -kInfinity) return own;  // else rows may close what bounds leave open
+  }
   const Boxes boxes = ProvenBoxes(problem, cutoff);
-  if (boxes.infeasible) return cutoff;
+  if (boxes.infeasible) return cutoff < kInfinity ? cutoff : -kInfinity;
   return std::min(cutoff, BoundOver(problem, relaxed, boxes.lower.data(), boxes.upper.data()));
 }
 
@@ -39,7 +42,10 @@ bool ProvesInfeasible(const sy_problem& problem, const Answer& certificate) {
   feasibility.offset = 0;
   Answer duals = certificate;
   duals.x = zero;
-  return BoundOver(feasibility, duals, problem.x_lower, problem.x_upper) > 0;
+  if (BoundOver(feasibility, duals, problem.x_lower, problem.x_upper) > 0) return true;
+  const Boxes boxes = ProvenBoxes(problem);
+  return boxes.infeasible ||
+         BoundOver(feasibility, duals, boxes.lower.data(), boxes.upper.data()) > 0;
 }
 
 }  // namespace switchyard::rounding

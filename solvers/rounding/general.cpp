@@ -13,6 +13,7 @@
 
 #include "solvers/rounding/bound.hpp"
 #include "solvers/rounding/diving.hpp"
+#include "solvers/rounding/verdict.hpp"
 #include "switchyard/cones.hpp"
 #include "switchyard/plugin.hpp"
 
@@ -227,20 +228,11 @@ class GeneralRun {
   }
 
   [[nodiscard]] bool IsWithinTheGap(double objective) const {
-    const sy_control& control = budget_.control();
-    const double gap = std::max(0.0, objective - bound_);
-    const double relative = std::isnan(control.relative_gap) ? 1e-4 : control.relative_gap;
-    const double absolute = std::isnan(control.absolute_gap) ? 0 : control.absolute_gap;
-    return gap <= relative * std::max(1e-10, std::abs(objective)) || gap <= absolute;
+    return rounding::IsWithinTheGap(budget_.control(), objective, bound_);
   }
 
   [[nodiscard]] sy_termination Verdict() const {
-    if (best_ >= 0) {
-      if (IsWithinTheGap(Best().objective)) return SY_OPTIMAL;
-      if (Best().objective <= budget_.control().target) return SY_TARGET;
-    }
-    if (budget_.reason() != SY_NOT_SOLVED) return budget_.reason();
-    return best_ >= 0 ? SY_LOCALLY_OPTIMAL : SY_RESTRICTIONS_FAILED;
+    return rounding::Verdict(budget_, best_ >= 0 ? &Best().objective : nullptr, bound_);
   }
 
   [[nodiscard]] std::string ReasonOfFailure() const {

@@ -9,35 +9,47 @@
 namespace switchyard::rounding {
 namespace {
 
-constexpr sy_option Row(const char* name, const char* help, sy_type type, double lower,
-                        double upper) {
-  return {sizeof(sy_option), 0, name, help, {type, 0, {}}, lower, upper, nullptr};
-}
+/// An integer of the options.
+struct Integer {
+  int Options::*member;
+  const char* name;
+  const char* help;
+  double upper;
+};
 
-const std::array<sy_option, 7>& Rows() {
-  static const std::array<sy_option, 7> rows = [] {
-    const Options fallback;
-    std::array<sy_option, 7> r = {
-        Row("solver", "Backends for relaxation and restrictions, in order; empty: any", SY_TEXT, 0,
-            0),
-        Row("paths", "Distinct paths to try; 0: the relaxation alone", SY_INTEGER, 0, 100000),
-        Row("trials", "Draws of a path", SY_INTEGER, 0, 10000000),
-        Row("flow_tolerance", "Arcs with no more flow are not drawn", SY_REAL, 0, 1),
-        Row("cut_rounds", "Times that the relaxation is solved again with cuts, at most",
-            SY_INTEGER, 0, 1000),
-        Row("hulls", "1: where two-cycles give no cut, vertices' transitions are asked for one",
-            SY_INTEGER, 0, 1),
-        Row("dives",
+constexpr std::array kIntegers = {
+    Integer{&Options::paths, "paths",
+            "Distinct paths with a point to compare; 0: the relaxation alone", 1e5},
+    Integer{&Options::trials, "trials", "Draws of a path", 1e7},
+    Integer{&Options::cut_rounds, "cut_rounds",
+            "Times that the relaxation is solved again with cuts, at most", 1e3},
+    Integer{&Options::cut_dimension, "cut_dimension",
+            "Coordinates of a vertex that gets cuts while paths are sought, at most", 1e9},
+    Integer{&Options::hulls, "hulls",
+            "1: where two-cycles give no cut, vertices' transitions are asked for one", 1},
+    Integer{&Options::dives, "dives",
             "Without paths: tries of an integer point, the first by rounding; 0: the relaxation "
             "alone",
-            SY_INTEGER, 0, 100000)};
+            1e5}};
+
+constexpr sy_option Row(const char* name, const char* help, sy_type type, double upper) {
+  return {sizeof(sy_option), 0, name, help, {type, 0, {}}, 0, upper, nullptr};
+}
+
+/// `solver`, `flow_tolerance`, then the integers.
+const std::array<sy_option, 2 + kIntegers.size()>& Rows() {
+  static const std::array<sy_option, 2 + kIntegers.size()> rows = [] {
+    const Options fallback;
+    std::array<sy_option, 2 + kIntegers.size()> r = {
+        Row("solver", "Backends for relaxation and restrictions, in order; empty: any", SY_TEXT, 0),
+        Row("flow_tolerance", "Arcs with no more flow are not drawn", SY_REAL, 1)};
     r[0].fallback.as.text = "";
-    r[1].fallback.as.integer = fallback.paths;
-    r[2].fallback.as.integer = fallback.trials;
-    r[3].fallback.as.real = fallback.flow_tolerance;
-    r[4].fallback.as.integer = fallback.cut_rounds;
-    r[5].fallback.as.integer = fallback.hulls;
-    r[6].fallback.as.integer = fallback.dives;
+    r[1].fallback.as.real = fallback.flow_tolerance;
+    for (std::size_t k = 0; k < kIntegers.size(); ++k) {
+      const Integer& of = kIntegers[k];
+      r[2 + k] = Row(of.name, of.help, SY_INTEGER, of.upper);
+      r[2 + k].fallback.as.integer = fallback.*of.member;
+    }
     return r;
   }();
   return rows;
@@ -72,34 +84,32 @@ double Number(const sy_option& row, const sy_value& value) {
 }  // namespace
 
 const sy_option* const* OptionTable() {
-  static const std::array<const sy_option*, 8> table = {
-      &Rows()[0], &Rows()[1], &Rows()[2], &Rows()[3], &Rows()[4], &Rows()[5], &Rows()[6], nullptr};
+  static const auto table = [] {
+    std::array<const sy_option*, 3 + kIntegers.size()> t{};  // ends with a null pointer
+    for (std::size_t k = 0; k < Rows().size(); ++k) t[k] = &Rows()[k];
+    return t;
+  }();
   return table.data();
 }
 
 void Options::Set(std::string_view name, const sy_value& value) {
-  const auto& [solver_row, paths_row, trials_row, tolerance_row, cuts_row, hulls_row, dives_row] =
-      Rows();
-  if (name == solver_row.name) {
-    if (value.type != SY_TEXT || value.as.text == nullptr)
-      Refuse(solver_row, "takes a text", value);
+  if (name == Rows()[0].name) {
+    if (value.type != SY_TEXT || value.as.text == nullptr) {
+      Refuse(Rows()[0], "takes a text", value);
+    }
     solver = value.as.text;
-  } else if (name == paths_row.name) {
-    paths = static_cast<int>(Number(paths_row, value));
-  } else if (name == trials_row.name) {
-    trials = static_cast<int>(Number(trials_row, value));
-  } else if (name == tolerance_row.name) {
-    flow_tolerance = Number(tolerance_row, value);
-  } else if (name == cuts_row.name) {
-    cut_rounds = static_cast<int>(Number(cuts_row, value));
-  } else if (name == hulls_row.name) {
-    hulls = static_cast<int>(Number(hulls_row, value));
-  } else if (name == dives_row.name) {
-    dives = static_cast<int>(Number(dives_row, value));
-  } else {
-    throw plugin::Failure(SY_E_ARGUMENT,
-                          "relax-and-round has no option '" + std::string(name) + "'");
+    return;
   }
+  if (name == Rows()[1].name) {
+    flow_tolerance = Number(Rows()[1], value);
+    return;
+  }
+  for (std::size_t k = 0; k < kIntegers.size(); ++k) {
+    if (name != kIntegers[k].name) continue;
+    this->*kIntegers[k].member = static_cast<int>(Number(Rows()[2 + k], value));
+    return;
+  }
+  throw plugin::Failure(SY_E_ARGUMENT, "relax-and-round has no option '" + std::string(name) + "'");
 }
 
 }  // namespace switchyard::rounding

@@ -10,6 +10,7 @@
 #include "solvers/rounding/general.hpp"
 #include "solvers/rounding/recombine.hpp"
 #include "solvers/rounding/tightened.hpp"
+#include "solvers/rounding/verdict.hpp"
 #include "solvers/rounding/vertex_hull.hpp"
 #include "switchyard/plugin.hpp"
 #include "switchyard/problem.hpp"
@@ -65,16 +66,23 @@ class Run {
   void Tighten() {
     Tightened tightened(whole_);
     const VertexHull hull(whole_, host_, options_, budget_);
-    for (; rounds_ < options_.cut_rounds && CanBeTightened(); ++rounds_) {
-      int added = tightened.AddTwoCycles(relaxed_.x, kViolated);
+    for (int round = 0; round < options_.cut_rounds && CanBeTightened(); ++round) {
+      int added = tightened.AddTwoCycles(relaxed_.x, kViolated, MostDim());
       if (added == 0 && options_.hulls != 0) added = AddHulls(hull, tightened);
       if (added == 0 || LikeliestPathWillDo()) break;
       tightened.Rebuild();
       const double before = Objective(p_, relaxed_.x.data());
       if (!SolveTightened(tightened)) break;
+      ++rounds_;
       const double gain = Objective(p_, relaxed_.x.data()) - before;
       if (gain <= LeastGain(before)) break;
     }
+  }
+
+  // Where points have many coordinates, so has a two-cycle many rows, each of which says little:
+  // the bound alone may be worth it.
+  [[nodiscard]] std::int32_t MostDim() const {
+    return options_.paths == 0 ? std::numeric_limits<std::int32_t>::max() : options_.cut_dimension;
   }
 
   int AddHulls(const VertexHull& hull, Tightened& tightened) {
@@ -113,11 +121,7 @@ class Run {
   }
 
   [[nodiscard]] bool IsWithinTheGap(double objective) const {
-    const sy_control& control = budget_.control();
-    const double gap = std::max(0.0, objective - bound_);
-    const double relative = std::isnan(control.relative_gap) ? 1e-4 : control.relative_gap;
-    const double absolute = std::isnan(control.absolute_gap) ? 0 : control.absolute_gap;
-    return gap <= relative * std::max(1e-10, std::abs(objective)) || gap <= absolute;
+    return rounding::IsWithinTheGap(budget_.control(), objective, bound_);
   }
 
   void SolveRelaxation(const sy_problem& relaxation) {
@@ -308,12 +312,7 @@ class Run {
   }
 
   [[nodiscard]] sy_termination Verdict() const {
-    if (best_ != nullptr) {
-      if (IsWithinTheGap(best_->objective)) return SY_OPTIMAL;
-      if (best_->objective <= budget_.control().target) return SY_TARGET;
-    }
-    if (budget_.reason() != SY_NOT_SOLVED) return budget_.reason();
-    return best_ != nullptr ? SY_LOCALLY_OPTIMAL : SY_RESTRICTIONS_FAILED;
+    return rounding::Verdict(budget_, best_ != nullptr ? &best_->objective : nullptr, bound_);
   }
 
   [[nodiscard]] std::string ReasonOfFailure() const {

@@ -59,19 +59,6 @@ double RowAt(const sy_csc& by_rows, std::int32_t row, std::span<const double> at
   return value;
 }
 
-/// Rows as columns over `columns` variables.
-Csc ByColumns(const std::vector<std::vector<Tightened::Entry>>& rows, std::int32_t columns) {
-  Csc by_rows(columns, static_cast<std::int32_t>(rows.size()));
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    for (const auto& e : rows[i]) {
-      by_rows.row.push_back(e.variable);
-      by_rows.value.push_back(e.value);
-    }
-    by_rows.start[i + 1] = static_cast<std::int32_t>(by_rows.row.size());
-  }
-  return Transpose(by_rows.View());
-}
-
 /// A matrix with more columns, and rows below.
 Csc Extended(const sy_csc* matrix, std::int32_t rows, const Csc& below) {
   Csc top = matrix != nullptr ? Csc(*matrix) : Csc(rows, 0);
@@ -219,7 +206,7 @@ void Tightened::Append(const Violated& violated) {
   AddCombination(cone, *set, violated.row);
 }
 
-int Tightened::AddTwoCycles(std::span<const double> x, double tolerance) {
+int Tightened::AddTwoCycles(std::span<const double> x, double tolerance, std::int32_t most_dim) {
   constexpr double kShare = 0.1;
   const sy_paths& paths = whole_.paths();
   const auto flow = [&](std::int32_t from, std::int32_t to) {
@@ -231,6 +218,7 @@ int Tightened::AddTwoCycles(std::span<const double> x, double tolerance) {
   };
   std::vector<Violated> violated;
   for (const auto& [u, w] : pairs_) {  // of a bounded set, only flow both ways can violate a row
+    if (paths.dim[u] > most_dim) continue;
     if (flow(u, w) > tolerance && flow(w, u) > tolerance) Find(u, w, x, violated);
   }
   double worst = 0;

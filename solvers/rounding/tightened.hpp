@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "solvers/rounding/entries.hpp"
 #include "solvers/rounding/path_problem.hpp"
 #include "switchyard/problem.hpp"
 
@@ -38,13 +39,11 @@ class Tightened {
 
   /// Of the rows that x, a point of the relaxation, violates by more than `tolerance` in units of
   /// flow, those that are violated at least a tenth as much as the worst. How many there were.
-  int AddTwoCycles(std::span<const double> x, double tolerance);
+  /// Only of vertices with at most `most_dim` coordinates.
+  int AddTwoCycles(std::span<const double> x, double tolerance, std::int32_t most_dim);
 
   /// sum of value x[variable] >= 0, a row that every path keeps.
-  struct Entry {
-    std::int32_t variable;
-    double value;
-  };
+  using Entry = rounding::Entry;
   void AddRow(const std::vector<Entry>& entries);
   void Count(int cuts) { num_cuts_ += cuts; }
   /// The problems with all that was added: empty before the first call.
@@ -97,7 +96,7 @@ class Tightened {
   std::vector<std::uint8_t> is_scale_;
   std::vector<std::int32_t> block_of_x_, block_of_row_, block_of_cone_;
   std::int32_t num_blocks_;
-  std::vector<std::vector<Entry>> rows_, cone_rows_;
+  Rows rows_, cone_rows_;
   std::vector<sy_cone> cones_;
 
   Problem exact_, relaxed_;

@@ -16,20 +16,6 @@ constexpr std::size_t kMostVariables = 4000;  // of the program that finds a cut
 
 std::size_t At(std::int32_t i) { return static_cast<std::size_t>(i); }
 
-using Rows = std::vector<std::vector<Tightened::Entry>>;
-
-Csc ByColumns(const Rows& rows, std::int32_t columns) {
-  Csc by_rows(columns, static_cast<std::int32_t>(rows.size()));
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    for (const auto& e : rows[i]) {
-      by_rows.row.push_back(e.variable);
-      by_rows.value.push_back(e.value);
-    }
-    by_rows.start[i + 1] = static_cast<std::int32_t>(by_rows.row.size());
-  }
-  return Transpose(by_rows.View());
-}
-
 /// The points of a set as a problem over (x, its own variables), without an objective.
 Problem PointsOf(const sy_set& set) {
   ProblemData d;
@@ -123,6 +109,7 @@ class VertexHull::Separation {
 
   std::vector<Tightened::Entry> Run(double tolerance) {
     for (std::size_t j = 0; j < dim_; ++j) {
+      CloseBox(j);
       if (!std::isfinite(boxes_.lower[j]) || !std::isfinite(boxes_.upper[j])) return {};
     }
     if (!Solve()) return {};
@@ -147,6 +134,32 @@ class VertexHull::Separation {
 
   [[nodiscard]] bool Allowed(const Side& in, const Side& out) const {
     return paths_.tail[in.arc] != paths_.head[out.arc];
+  }
+
+  // Where the set's rows and cones prove no end, the bounds of its arcs' points do: a path has a
+  // point within those of the arcs that it goes by.
+  void CloseBox(std::size_t j) {
+    const sy_problem& p = hull_.whole_.problem();
+    double lower = kInfinity, upper = -kInfinity;
+    for (const std::vector<Side>* sides : {&in_, &out_}) {
+      for (const Side& side : *sides) {
+        double least = 0, most = 0;
+        const auto column = At(side.first) + j;
+        for (std::int32_t k = side.points->start[column]; k < side.points->start[column + 1]; ++k) {
+          const std::int32_t i = side.points->row[k];
+          const double one =
+              side.points->value[k] * (p.x_lower != nullptr ? p.x_lower[i] : -kInfinity);
+          const double other =
+              side.points->value[k] * (p.x_upper != nullptr ? p.x_upper[i] : kInfinity);
+          least += std::min(one, other);
+          most += std::max(one, other);
+        }
+        lower = std::min(lower, least);
+        upper = std::max(upper, most);
+      }
+    }
+    if (!std::isfinite(boxes_.lower[j])) boxes_.lower[j] = lower;
+    if (!std::isfinite(boxes_.upper[j])) boxes_.upper[j] = upper;
   }
 
   /// Flow and point of an arc in x.
@@ -317,7 +330,7 @@ class VertexHull::Separation {
   std::span<const double> x_;
   const std::size_t dim_;
   const Problem points_;
-  const Boxes boxes_;
+  Boxes boxes_;
   std::vector<Side> in_, out_;
   std::vector<Pair> pairs_;
   ProblemData d_;

@@ -30,10 +30,10 @@ class VertexHull {
  public:
   VertexHull(const PathProblem& whole, const sy_host& host, const Options& options, Budget& budget);
 
-  /// Are both sides of v used by more than one arc in the flow of x, and is its set known and
-  /// bounded?
+  /// Are both sides of v used by more than one arc in the flow of x, and is its set known?
   [[nodiscard]] bool Asks(std::int32_t v, std::span<const double> x) const;
-  /// A row that x violates by more than `tolerance` beside its largest number, or nothing.
+  /// A row that x violates by more than `tolerance` beside its largest number, or nothing; nothing
+  /// where the set is not known to be bounded.
   [[nodiscard]] std::vector<Tightened::Entry> Cut(std::int32_t v, std::span<const double> x,
                                                   double tolerance) const;
 

@@ -1,6 +1,7 @@
 // Random graphs of convex sets, small enough for all their simple paths to be solved.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -16,6 +17,14 @@ struct RandomGraphKind {
   bool negative = false;    // many costs are below 0, so that cycles may be
   bool forced = false;      // an edge or two must be on the path
   bool tagged = false;      // some terms count in some transcriptions
+
+  /// Each with each other, in turn.
+  static RandomGraphKind Of(unsigned seed) {
+    return {.polyhedral = seed % 2 == 0,
+            .negative = seed % 3 == 0,
+            .forced = seed % 5 == 0,
+            .tagged = seed % 7 == 0};
+  }
 };
 
 /// Up to 10 vertices, of dimensions 0 to 3, most of them on some way from source to target; edges
@@ -27,17 +36,20 @@ class RandomGraph {
   using Edge = GraphOfConvexSets::Edge;
   using Transcription = GraphOfConvexSets::Transcription;
 
-  RandomGraph(unsigned seed, const RandomGraphKind& of) : kind(of), draw(seed) {
+  explicit RandomGraph(unsigned seed) : kind(RandomGraphKind::Of(seed)), draw(seed) {
     const int n = draw.Integer(3, 10);
     for (int v = 0; v < n; ++v) AddVertex();
     AddBackbone();
-    for (int more = draw.Integer(0, n + 2); more > 0; --more) {
+    if (kind.negative && n > 4) AddRing();
+    if (draw.Chance(0.3)) AddHub();
+    const bool dense = draw.Chance(0.4);
+    for (int more = draw.Integer(0, dense ? 2 * n : n + 2); more > 0; --more) {
       AddEdge(draw.Integer(0, n - 1), draw.Integer(0, n - 1));
     }
     const std::vector<Edge*> some = graph.Edges();
     for (const Edge* edge : some) {
       const int u = IndexOf(edge->u()), v = IndexOf(edge->v());
-      if (draw.Chance(0.25)) AddEdge(v, u);
+      if (draw.Chance(dense ? 0.6 : 0.2)) AddEdge(v, u);
       if (draw.Chance(0.08)) AddEdge(u, v);
     }
     FixFlows();
@@ -60,7 +72,7 @@ class RandomGraph {
 
  private:
   void AddVertex() {
-    const int n = draw.Chance(0.1) ? 0 : draw.Integer(1, 3);
+    const int n = draw.Chance(0.1) ? 0 : draw.Chance(0.5) ? 2 : draw.Integer(1, 3);
     const Eigen::VectorXd inside = draw.Vector(n);
     const auto set = sets_.Any(inside, kind.polyhedral);
     Vertex* v = graph.AddVertex(set);
@@ -87,10 +99,30 @@ class RandomGraph {
     }
   }
 
-  void AddEdge(int u, int v) {
-    if (u == v && !draw.Chance(0.2)) return;
-    Edge* edge = graph.AddEdge(vertices[static_cast<std::size_t>(u)],
-                               vertices[static_cast<std::size_t>(v)]);
+  /// A cycle that is dear to enter, and that costs less than nothing.
+  void AddRing() {
+    const int last = static_cast<int>(vertices.size()) - 1;
+    for (int v = 1; v <= 3; ++v) AddEdge(v, v % 3 + 1)->AddCost(-1.5);
+    AddEdge(0, last);
+    if (Edge* in = AddEdge(0, 1)) in->AddCost(4);
+    if (Edge* out = AddEdge(3, last)) out->AddCost(1);
+  }
+
+  /// Edges both ways between the second vertex and others: too many for it to count transitions.
+  void AddHub() {
+    const int last = static_cast<int>(vertices.size()) - 1;
+    for (int v = 2; v <= std::min(5, last); ++v) {
+      AddEdge(1, v);
+      AddEdge(v, 1);
+    }
+    AddEdge(0, 1);
+  }
+
+  /// None: one in five loops that are drawn is added.
+  Edge* AddEdge(int u, int v) {
+    if (u == v && !draw.Chance(0.2)) return nullptr;
+    Edge* edge =
+        graph.AddEdge(vertices[static_cast<std::size_t>(u)], vertices[static_cast<std::size_t>(v)]);
     const int slacks = draw.Chance(0.2) ? draw.Integer(1, 2) : 0;
     const VectorXDecisionVariable s = edge->NewSlackVariables(slacks);
     const Eigen::VectorXd &p = inside_[static_cast<std::size_t>(u)],
@@ -110,13 +142,21 @@ class RandomGraph {
                                                   Eigen::VectorXd::Constant(slacks, 2)),
           s));
     }
-    for (int k = draw.Integer(1, 2); k > 0; --k) AddCost(*edge, x, at);
+    const bool alike = u != v && p.size() == q.size() && p.size() > 0;
+    if (alike && draw.Chance(0.7)) {
+      const auto distance = terms_.Distance(static_cast<int>(p.size()), kind.polyhedral);
+      edge->AddCost(Binding<Cost>(distance, x.head(2 * p.size())), Tags());
+    } else {
+      for (int k = draw.Integer(1, 2); k > 0; --k) AddCost(*edge, x, at);
+    }
     if (draw.Chance(0.4)) AddConstraint(*edge, x, at);
+    return edge;
   }
 
   template <class Element>
   void AddCost(Element& element, const VectorXDecisionVariable& x, const Eigen::VectorXd& at) {
-    auto cost = terms_.AnyCost(at, kind.polyhedral, kind.negative ? -0.6 : 0.6);
+    auto cost = kind.negative && draw.Chance(0.7) ? terms_.LinearWith(-1, at)
+                                                  : terms_.AnyCost(at, kind.polyhedral);
     if (auto linear = std::dynamic_pointer_cast<LinearCost>(cost)) linear_.push_back(linear);
     element.AddCost(Binding<Cost>(cost, x), Tags());
   }
@@ -124,10 +164,10 @@ class RandomGraph {
   void AddConstraint(Element& element, const VectorXDecisionVariable& x,
                      const Eigen::VectorXd& at) {
     if (x.size() == 0) return;
-    const Eigen::VectorXd off = draw.Chance(0.15) ? draw.Vector(static_cast<int>(x.size()), 1.5)
-                                                  : Eigen::VectorXd::Zero(x.size());
-    element.AddConstraint(
-        Binding<Constraint>(terms_.AnyConstraint(at + off, kind.polyhedral), x), Tags());
+    const Eigen::VectorXd off = draw.Chance(0.1) ? draw.Vector(static_cast<int>(x.size()), 1.5)
+                                                 : Eigen::VectorXd::Zero(x.size());
+    element.AddConstraint(Binding<Constraint>(terms_.AnyConstraint(at + off, kind.polyhedral), x),
+                          Tags());
   }
 
   GraphOfConvexSets::TranscriptionSet Tags() {

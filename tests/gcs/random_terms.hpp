@@ -15,9 +15,13 @@ class RandomTerms {
  public:
   explicit RandomTerms(Draw& draw) : draw_(draw) {}
 
-  /// Linear ones with a constant in [fee - 0.3, fee + 0.3]. `at`: where a perspective quadratic's
-  /// denominator is 4.
-  std::shared_ptr<Cost> AnyCost(const Eigen::VectorXd& at, bool polyhedral, double fee) {
+  /// About `fee` at a point.
+  std::shared_ptr<Cost> LinearWith(double fee, const Eigen::VectorXd& at) {
+    const Eigen::VectorXd a = draw_.Vector(N(at), 0.5);
+    return std::make_shared<LinearCost>(a, fee - a.dot(at) + draw_.Uniform(-0.3, 0.3));
+  }
+  /// `at`: where a perspective quadratic's denominator is 4.
+  std::shared_ptr<Cost> AnyCost(const Eigen::VectorXd& at, bool polyhedral) {
     const int n = N(at), rows = draw_.Integer(1, 3);
     const int kind = n == 0 ? 0 : draw_.Integer(0, polyhedral ? 2 : 5);
     const auto A = [&] { return draw_.Matrix(rows, n); };
@@ -30,7 +34,7 @@ class RandomTerms {
         return std::make_shared<L2NormCost>(A(), draw_.Vector(rows));
       case 4: {
         const Eigen::MatrixXd S = A();
-        return std::make_shared<QuadraticCost>(S.transpose() * S, draw_.Vector(n), fee);
+        return std::make_shared<QuadraticCost>(S.transpose() * S, draw_.Vector(n), 0.5);
       }
       case 5: {
         Eigen::MatrixXd Z(rows + 1, n);
@@ -40,9 +44,18 @@ class RandomTerms {
         return std::make_shared<PerspectiveQuadraticCost>(Z, b);
       }
       default:
-        return std::make_shared<LinearCost>(draw_.Vector(n, 0.5),
-                                            fee + draw_.Uniform(-0.3, 0.3));
+        return LinearWith(0.6, at);
     }
+  }
+
+  /// Between the halves of x, in R^2n: what lets a relaxation send its flow around in circles.
+  std::shared_ptr<Cost> Distance(int n, bool polyhedral) {
+    Eigen::MatrixXd A(n, 2 * n);
+    A << -Eigen::MatrixXd::Identity(n, n), Eigen::MatrixXd::Identity(n, n);
+    const Eigen::VectorXd zero = Eigen::VectorXd::Zero(n);
+    if (polyhedral) return std::make_shared<L1NormCost>(A, zero);
+    if (draw_.Chance(0.5)) return std::make_shared<L2NormCost>(A, zero);
+    return std::make_shared<QuadraticCost>(2 * A.transpose() * A, Eigen::VectorXd::Zero(2 * n));
   }
 
   /// One that holds at a point (with n > 0 entries), most of them around it too.
@@ -50,9 +63,9 @@ class RandomTerms {
     using Make = std::shared_ptr<Constraint> (RandomTerms::*)(const Eigen::VectorXd&);
     static const std::vector<Make> flat = {&RandomTerms::OneSided, &RandomTerms::TwoSided,
                                            &RandomTerms::Equality, &RandomTerms::Bounds};
-    static const std::vector<Make> round = {
-        &RandomTerms::Lorentz,     &RandomTerms::Rotated, &RandomTerms::Matrix,
-        &RandomTerms::Exponential, &RandomTerms::Power,   &RandomTerms::Quadratic};
+    static const std::vector<Make> round = {&RandomTerms::Lorentz, &RandomTerms::Rotated,
+                                            &RandomTerms::Matrix,  &RandomTerms::Exponential,
+                                            &RandomTerms::Power,   &RandomTerms::Quadratic};
     const int count = static_cast<int>(flat.size() + (polyhedral ? 0 : round.size()));
     const auto k = static_cast<std::size_t>(draw_.Integer(0, count - 1));
     return (this->*(k < flat.size() ? flat[k] : round[k - flat.size()]))(at);
@@ -90,8 +103,7 @@ class RandomTerms {
   One Rotated(const Eigen::VectorXd& p) {
     Eigen::MatrixXd A(4, N(p));
     A << draw_.Matrix(2, N(p), 0.2), draw_.Matrix(2, N(p));
-    return std::make_shared<RotatedLorentzConeConstraint>(A,
-                                                          Eigen::Vector4d(1, 0.5, 0, 0) - A * p);
+    return std::make_shared<RotatedLorentzConeConstraint>(A, Eigen::Vector4d(1, 0.5, 0, 0) - A * p);
   }
   One Matrix(const Eigen::VectorXd& p) {
     std::vector<Eigen::MatrixXd> F(static_cast<std::size_t>(N(p)) + 1);
@@ -121,8 +133,7 @@ class RandomTerms {
   One Quadratic(const Eigen::VectorXd& p) {
     const Eigen::MatrixXd S = draw_.Matrix(2, N(p));
     const Eigen::MatrixXd Q = S.transpose() * S;
-    return std::make_shared<QuadraticConstraint>(Q, -Q * p, -kInfinity,
-                                                 0.5 - 0.5 * p.dot(Q * p));
+    return std::make_shared<QuadraticConstraint>(Q, -Q * p, -kInfinity, 0.5 - 0.5 * p.dot(Q * p));
   }
   static int N(const Eigen::VectorXd& p) { return static_cast<int>(p.size()); }
 

@@ -32,14 +32,15 @@ class RandomVertexSets {
   std::shared_ptr<const ConvexSet> Any(const Eigen::VectorXd& inside, bool polyhedral) {
     using Make = std::shared_ptr<const ConvexSet> (RandomVertexSets::*)(const Eigen::VectorXd&);
     static const std::vector<Make> flat = {
-        &RandomVertexSets::OnePoint,      &RandomVertexSets::Box,  &RandomVertexSets::FlatBox,
-        &RandomVertexSets::Polyhedron,    &RandomVertexSets::Slab, &RandomVertexSets::Vertices,
+        &RandomVertexSets::OnePoint,      &RandomVertexSets::Box,
+        &RandomVertexSets::FlatBox,       &RandomVertexSets::Polyhedron,
+        &RandomVertexSets::Slab,          &RandomVertexSets::Vertices,
         &RandomVertexSets::ProductOfFlat, &RandomVertexSets::SumOfFlat,
         &RandomVertexSets::HullOfFlat,    &RandomVertexSets::MeetOfFlat,
         &RandomVertexSets::Subspace};
     static const std::vector<Make> round = {
-        &RandomVertexSets::Ellipsoid, &RandomVertexSets::Ball, &RandomVertexSets::Product,
-        &RandomVertexSets::Sum,       &RandomVertexSets::Hull, &RandomVertexSets::Meet,
+        &RandomVertexSets::Ellipsoid, &RandomVertexSets::Ball,       &RandomVertexSets::Product,
+        &RandomVertexSets::Sum,       &RandomVertexSets::Hull,       &RandomVertexSets::Meet,
         &RandomVertexSets::Matrices,  &RandomVertexSets::Constraints};
     if (inside.size() == 0) {
       if (draw_.Chance(0.5)) return std::make_shared<Hyperrectangle>();

@@ -1,0 +1,108 @@
+// Detours of a path along another one, over all pairs of paths of small graphs.
+#include "solvers/rounding/recombine.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <set>
+
+namespace switchyard::test {
+namespace {
+
+using Path = std::vector<std::int32_t>;
+
+std::size_t At(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+struct Graph {
+  explicit Graph(std::uint64_t seed) {
+    std::mt19937_64 engine(seed);
+    num_vertices = static_cast<std::int32_t>(4 + engine() % 3);
+    for (int k = 0; k < 11; ++k) {  // loops and parallel arcs among them
+      tail.push_back(static_cast<std::int32_t>(engine() % At(num_vertices)));
+      head.push_back(static_cast<std::int32_t>(engine() % At(num_vertices)));
+    }
+    Path path;
+    Extend(0, path);
+  }
+  [[nodiscard]] Arcs arcs() const { return {num_vertices, tail, head}; }
+  /// Source, then the heads.
+  [[nodiscard]] std::vector<std::int32_t> Along(const Path& path) const {
+    std::vector<std::int32_t> along = {0};
+    for (const std::int32_t a : path) along.push_back(head[At(a)]);
+    return along;
+  }
+  void Extend(std::int32_t u, Path& path) {
+    if (u == num_vertices - 1) return paths.push_back(path);
+    const auto along = Along(path);
+    for (std::int32_t a = 0; a < static_cast<std::int32_t>(tail.size()); ++a) {
+      if (tail[At(a)] != u) continue;
+      if (std::find(along.begin(), along.end(), head[At(a)]) != along.end()) continue;
+      path.push_back(a);
+      Extend(head[At(a)], path);
+      path.pop_back();
+    }
+  }
+  std::int32_t num_vertices = 0;
+  std::vector<std::int32_t> tail, head;
+  std::vector<Path> paths;  // simple, from 0 to the last vertex
+};
+
+/// Each part of `other` that has no more than its two ends on `path`, the second behind the first,
+/// and is not an arc of it, in the place of what is between these.
+std::set<Path> ByDefinition(const Graph& g, const Path& path, const Path& other) {
+  const auto base = g.Along(path), along = g.Along(other);
+  const auto place = [&](std::int32_t v) { return std::find(base.begin(), base.end(), v); };
+  std::set<Path> all;
+  for (std::size_t i = 0; i < along.size(); ++i) {
+    for (std::size_t j = i + 1; j < along.size(); ++j) {
+      const auto from = place(along[i]), to = place(along[j]);
+      if (from == base.end() || to == base.end() || to <= from) continue;
+      bool within = false;
+      for (std::size_t k = i + 1; k < j; ++k) within = within || place(along[k]) != base.end();
+      if (within) continue;
+      Path made(path.begin(), path.begin() + (from - base.begin()));
+      made.insert(made.end(), other.begin() + static_cast<std::ptrdiff_t>(i),
+                  other.begin() + static_cast<std::ptrdiff_t>(j));
+      made.insert(made.end(), path.begin() + (to - base.begin()), path.end());
+      if (made != path) all.insert(made);
+    }
+  }
+  return all;
+}
+
+TEST(Detours, AreThoseOfTheDefinitionAndSimplePaths) {
+  std::size_t pairs = 0, made = 0;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    const Graph g(seed);
+    const std::set<Path> simple(g.paths.begin(), g.paths.end());
+    for (const Path& path : g.paths) {
+      for (const Path& other : g.paths) {
+        const auto detours = rounding::Detours(g.arcs(), path, other);
+        const std::set<Path> distinct(detours.begin(), detours.end());
+        EXPECT_EQ(distinct.size(), detours.size());
+        EXPECT_EQ(distinct, ByDefinition(g, path, other));
+        EXPECT_EQ(distinct.empty(), path == other);
+        for (const Path& detour : detours) {
+          EXPECT_EQ(simple.count(detour), 1u);
+          for (const std::int32_t a : detour) {
+            EXPECT_TRUE(std::count(path.begin(), path.end(), a) > 0 ||
+                        std::count(other.begin(), other.end(), a) > 0);
+          }
+        }
+        ++pairs;
+        made += detours.size();
+      }
+    }
+  }
+  EXPECT_GT(pairs, 500u);
+  EXPECT_GT(made, 500u);
+}
+
+TEST(Detours, OfNothingAreNone) {
+  const Graph g(1);
+  EXPECT_TRUE(rounding::Detours(g.arcs(), {}, {}).empty());
+}
+
+}  // namespace
+}  // namespace switchyard::test
