@@ -24,6 +24,7 @@ struct PlanOptions {
   bool relaxation = false;
   bool round = false;  // the default, so that scripts can say it
   int paths = kPaths;
+  std::string nonlinear;
   std::string picture;
 
   void AddTo(CLI::App& command);
@@ -52,6 +53,11 @@ void PlanOptions::AddTo(CLI::App& command) {
   command.add_option("--paths", paths, "Distinct paths to try at most (default 10)")
       ->check(CLI::Range(1, 100000))
       ->excludes(only);
+  command
+      .add_option("--nonlinear", nonlinear,
+                  "The backend of the paths' restrictions, which may be nonlinear (default: as "
+                  "--solver, or the best that takes them)")
+      ->excludes(only);
   command.add_option("--picture", picture, "Draw sets, flow and path to this file (.svg)")
       ->check(
           [](const std::string& path) {
@@ -61,8 +67,8 @@ void PlanOptions::AddTo(CLI::App& command) {
           "", "ending");
 }
 
-/// Throws NoBackend where --solver names no backend that is there.
-void CheckSolver(const std::string& names, const Host& host) {
+/// Throws NoBackend where an option names no backend that is there.
+void CheckSolver(const char* option, const std::string& names, const Host& host) {
   std::stringstream list(names);
   std::string name;
   while (std::getline(list, name, ',')) {
@@ -71,7 +77,7 @@ void CheckSolver(const std::string& names, const Host& host) {
   if (name.empty()) return;
   std::vector<std::string> others;
   for (const Backend* one : host.backends()) others.push_back(one->short_name);
-  throw NoBackend(Text("--solver ", names, ": there is no such backend; there are ",
+  throw NoBackend(Text(option, " ", names, ": there is no such backend; there are ",
                        fmt::format("{}", fmt::join(others, ", "))));
 }
 
@@ -195,12 +201,16 @@ int Plan(const std::string& file, PlanOptions& options) {
     if (!options.solve.quiet) std::cerr << "note: " << note << '\n';
   }
   const auto host = options.solve.MakeHost();
-  CheckSolver(options.solve.solver, *host);
+  CheckSolver("--solver", options.solve.solver, *host);
+  CheckSolver("--nonlinear", options.nonlinear, *host);
   SolverOptions given = options.solve.ForSolver(*host, Since(start));
   given.progress = TerminalProgress(options.solve.quiet);
   const SolverInterface solver(options.solve.solver, *host);
-  ShortestPath found = FindShortestPath(*problem.graph, *problem.source, *problem.target,
-                                        ForSearch(options, solver, given), *host);
+  const SolverInterface restriction(options.nonlinear, *host);
+  GraphOfConvexSetsOptions search = ForSearch(options, solver, given);
+  if (!options.nonlinear.empty()) search.restriction_solver = &restriction;
+  ShortestPath found =
+      FindShortestPath(*problem.graph, *problem.source, *problem.target, search, *host);
   EndProgress(given.progress);
   found.result.seconds.read = read;
   found.result.seconds.total = Since(start);
