@@ -99,8 +99,8 @@ void Search::Transcribe() {
     }
   };
   tags_ = TagsOf(pruned_, as_);
-  const bool by_another = options_.restriction_solver != nullptr ||
-                          options_.restriction_solver_options.has_value();
+  const bool by_another =
+      options_.restriction_solver != nullptr || options_.restriction_solver_options.has_value();
   if (!tags_.same || by_another) {
     paths.solve_path = [](void* context, const std::int32_t* arcs, std::int32_t count,
                           const sy_control* control, sy_result* result, sy_error* error) noexcept {

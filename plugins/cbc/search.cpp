@@ -33,10 +33,12 @@ using coin::ClpSession;
 using linear::Watch;
 
 constexpr const char* kOnOff[] = {"on", "off", nullptr};
+// Preprocessing of CBC 2.10 has been seen to lose the optimum: off unless asked for.
+constexpr const char* kOffOn[] = {"off", "on", nullptr};
 
 // Named as CBC's own command line names them.
 constexpr std::array kOptions = {
-    linear::WordOption("preprocess", kOnOff, "Preprocess the integer problem"),
+    linear::WordOption("preprocess", kOffOn, "Preprocess the integer problem"),
     linear::WordOption("cutsOnOff", kOnOff, "Generate cuts"),
     linear::WordOption("heuristicsOnOff", kOnOff, "Look for incumbents beside the tree"),
     linear::IntegerOption("strongBranching", 5, 0, 999999, "Variables to try in strong branching"),

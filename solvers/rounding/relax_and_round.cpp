@@ -18,6 +18,7 @@
 namespace switchyard::rounding {
 namespace {
 
+constexpr double kDetached = 1e-3;  // flow that no inner point leaves
 constexpr double kViolated = 1e-5;  // by a cut: relative to its terms
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
@@ -67,7 +68,8 @@ class Run {
     Tightened tightened(whole_);
     const VertexHull hull(whole_, host_, options_, budget_);
     for (int round = 0; round < options_.cut_rounds && CanBeTightened(); ++round) {
-      int added = tightened.AddTwoCycles(relaxed_.x, kViolated, MostDim());
+      const int detached = tightened.AddDetached(relaxed_.x, kDetached);
+      int added = detached + tightened.AddTwoCycles(relaxed_.x, kViolated, MostDim());
       if (added == 0 && options_.hulls != 0) added = AddHulls(hull, tightened);
       if (added == 0 || LikeliestPathWillDo()) break;
       tightened.Rebuild();
@@ -75,7 +77,7 @@ class Run {
       if (!SolveTightened(tightened)) break;
       ++rounds_;
       const double gain = Objective(p_, relaxed_.x.data()) - before;
-      if (gain <= LeastGain(before)) break;
+      if (detached == 0 && gain <= LeastGain(before)) break;
     }
   }
 
@@ -112,7 +114,7 @@ class Run {
   /// What a round must add to the relaxation for another one to be worth it: where there is a path,
   /// a part of what lies between.
   [[nodiscard]] double LeastGain(double relaxed) const {
-    constexpr double kOfValue = 1e-5, kOfGap = 0.02;
+    constexpr double kOfValue = 1e-5, kOfGap = 0.05;
     double least = kOfValue * (1 + std::abs(relaxed));
     for (const Candidate& c : candidates_) {
       if (c.feasible) least = std::max(least, kOfGap * (c.objective - relaxed));

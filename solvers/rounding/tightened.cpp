@@ -240,6 +240,31 @@ std::int32_t Tightened::AddVariable(double lower, double upper, bool scale) {
   return p_.num_vars + static_cast<std::int32_t>(x_lower_.size()) - 1;
 }
 
+int Tightened::AddDetached(std::span<const double> x, double tolerance) {
+  const sy_paths& paths = whole_.paths();
+  std::vector<std::uint8_t> carries(whole_.arcs().size());
+  for (std::size_t a = 0; a < carries.size(); ++a) {
+    carries[a] = x[At(paths.flow[a])] > 0.1 * tolerance ? 1 : 0;
+  }
+  const auto reached = Reached(whole_.arcs(), Leaving(whole_.arcs(), carries), paths.source);
+  int added = 0;
+  for (std::int32_t v = 0; v < paths.num_vertices; ++v) {
+    double out = 0;
+    for (const std::int32_t a : whole_.out().Of(v)) out += x[At(paths.flow[a])];
+    if (reached[At(v)] != 0 || !(out > tolerance)) continue;
+    std::vector<Entry> row;
+    for (const std::int32_t a : whole_.out().Of(v)) row.push_back({paths.flow[a], -1});
+    for (std::int32_t a = 0; a < paths.num_arcs; ++a) {
+      const bool enters = reached[At(paths.head[a])] == 0 && reached[At(paths.tail[a])] != 0;
+      if (enters) row.push_back({paths.flow[a], 1});
+    }
+    AddRow(row);
+    ++added;
+  }
+  num_cuts_ += added;
+  return added;
+}
+
 void Tightened::BeginRow(double lower, double upper, std::int32_t block) {
   rows_.emplace_back();
   row_lower_.push_back(lower);

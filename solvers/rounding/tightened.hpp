@@ -42,6 +42,11 @@ class Tightened {
   /// Only of vertices with at most `most_dim` coordinates.
   int AddTwoCycles(std::span<const double> x, double tolerance, std::int32_t most_dim);
 
+  /// What leaves a vertex of a path has come from its source: for the vertices W that the flow of x
+  /// does not reach from there, sum of flows into W - sum out of v >= 0 for each v of W that more
+  /// than `tolerance` leaves. How many were new.
+  int AddDetached(std::span<const double> x, double tolerance);
+
   /// sum of value x[variable] >= 0, a row that every path keeps.
   using Entry = rounding::Entry;
   void AddRow(const std::vector<Entry>& entries);

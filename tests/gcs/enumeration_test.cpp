@@ -165,10 +165,6 @@ void CheckWhole(const RandomGraph& g, const EveryPath& every, const char* backen
   options.solver = &solver;
   options.parallelism = Parallelism::None();
   options.solver_options.relative_gap = 0;
-  // CBC's own preprocessing loses the optimum of one in a thousand of these programs.
-  if (solver.solver_id().name() == "cbc") {
-    options.solver_options.SetOption(solver.solver_id(), "preprocess", "off");
-  }
   const ShortestPath found = FindShortestPath(g.graph, g.source(), g.target(), options);
   ++counts.whole;
   counts.cycles += found.cycle_rounds > 0 ? 1 : 0;
