@@ -3,6 +3,8 @@
 #include <Eigen/QR>
 #include <cmath>
 
+#include "core/linalg/implicit_equalities.hpp"
+#include "core/sets/section_lp.hpp"
 #include "core/sets/set_program.hpp"
 #include "switchyard/error.hpp"
 #include "switchyard/solve/solve.hpp"
@@ -25,6 +27,34 @@ Eigen::VectorXd FarthestStep(const ConvexSet& set, const Eigen::VectorXd& p,
   return result.GetSolution(step);
 }
 
+/// Of a small polyhedron over x alone: what is orthogonal to the rows that hold with equality
+/// everywhere, at a point where all others are strict.
+std::optional<AffineHull> ByImplicitEqualities(const ConvexSet& set) {
+  const ScaledSet& scaled = set.scaled();
+  const Eigen::Index n = set.ambient_dimension();
+  if (n == 0 || scaled.num_aux > 0 || !IsSmallPolyhedron(scaled)) return std::nullopt;
+  const DenseLp lp = SectionLp(scaled, Eigen::VectorXd::Zero(n));
+  const ImplicitEqualities found = FindImplicitEqualities(lp);
+  if (found.status != DenseLpStatus::kOptimal) return std::nullopt;
+  Eigen::MatrixXd across(n, static_cast<Eigen::Index>(found.equalities.size()));
+  for (Eigen::Index k = 0; k < across.cols(); ++k) {
+    const int row = found.equalities[static_cast<std::size_t>(k)].row;
+    across.col(k) = row < lp.num_rows()
+                        ? Eigen::VectorXd(Eigen::VectorXd::Map(lp.A.data() + row * n, n))
+                        : Eigen::VectorXd(Eigen::VectorXd::Unit(n, row - lp.num_rows()));
+    if (across.col(k).squaredNorm() > 0) across.col(k).normalize();
+  }
+  Eigen::MatrixXd Q = Eigen::MatrixXd::Identity(n, n);
+  Eigen::Index rank = 0;
+  if (across.cols() > 0) {
+    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(across);
+    qr.setThreshold(1e-9);
+    rank = qr.rank();
+    Q = qr.householderQ();
+  }
+  return AffineHull{Eigen::VectorXd::Map(found.x.data(), n), Q.rightCols(n - rank)};
+}
+
 }  // namespace
 
 // Each direction that is orthogonal to all found so far either has a point of the set off the
@@ -32,6 +62,9 @@ Eigen::VectorXd FarthestStep(const ConvexSet& set, const Eigen::VectorXd& p,
 // orthogonal to it; n directions in all.
 AffineHull AffineHullOf(const ConvexSet& set, double tol) {
   Require(tol >= 0, "an affine hull needs a tolerance of at least 0, got ", tol);
+  if (tol == kAffineHullTolerance) {  // which is that of the rows found there
+    if (auto hull = ByImplicitEqualities(set)) return std::move(*hull);
+  }
   const std::optional<Eigen::VectorXd> p = set.MaybeGetFeasiblePoint();
   Require(p.has_value(), "an affine hull needs a set with a point, got an empty ", set.Kind());
   const Eigen::Index n = p->size();

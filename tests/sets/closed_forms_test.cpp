@@ -110,6 +110,17 @@ TEST(AffineSubspace, OfASetIsItsAffineHull) {
     EXPECT_TRUE(AffineSubspace(expected).IsNearlyEqualTo(expected, 1e-6)) << k;
   }
   EXPECT_EQ(AffineSubspace(Hyperellipsoid::MakeUnitBall(2)).AffineDimension(), 2);
+  // x + y <= 1 and >= 1 by two rows, and by 2 x + 2 y <= 2; 0 <= z <= 1.
+  Eigen::MatrixXd A(5, 3);
+  A << 1, 1, 0, -1, -1, 0, 2, 2, 0, 0, 0, 1, 0, 0, -1;
+  Eigen::VectorXd b(5);
+  b << 1, -1, 2, 1, 0;
+  Eigen::MatrixXd basis(3, 2);
+  basis << 1, 0, -1, 0, 0, 1;
+  EXPECT_TRUE(AffineSubspace(HPolyhedron(A, b))
+                  .IsNearlyEqualTo(AffineSubspace(basis, Eigen::Vector3d(1, 0, 0)), 1e-9));
+  b[4] = -1;  // z = 1
+  EXPECT_EQ(AffineSubspace(HPolyhedron(A, b)).AffineDimension(), 1);
 }
 
 TEST(Projection, OnABoxIsTheNearestPoint) {
