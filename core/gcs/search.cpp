@@ -190,7 +190,7 @@ bool Search::SolveOnce(const ProblemData& data) {
 // are left out of the answer.
 void Search::SolveWhole() {
   ProblemData data = transcription_->problem().data();
-  Problem problem = transcription_->problem();
+  Problem problem;  // with what forbids them
   while (SolveOnce(data)) {
     if (raw_->raw.primal != SY_FEASIBLE && raw_->raw.primal != SY_NEARLY_FEASIBLE) return;
     if (!ForbidCycles(pruned_, *transcription_, raw_->vectors.x, data)) return;

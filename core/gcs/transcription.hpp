@@ -31,8 +31,8 @@ namespace switchyard {
 ///
 /// and at vertices that count transitions (e, f), instead of flow and spatial rows,
 ///   block ef  w_ef in lambda_ef X_v, the terms of v
-///   flow      phi_e = sum_f lambda_ef, z_e = sum_f w_ef;  phi_f = sum_e lambda_ef, y_f = sum_e
-///   w_ef
+///   flow      phi_e = sum_f lambda_ef, z_e = sum_f w_ef
+///             phi_f = sum_e lambda_ef, y_f = sum_e w_ef
 /// where the only transition from e, or to f, has no copy of its own: it is z_e, or y_f.
 /// Coordinates that have but one value have no variable: they are phi times it. Bounds of y, z and
 /// w are the sets' boxes, hulled with 0: implied. Stays in place while a backend holds the problem.

@@ -22,8 +22,6 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-bool IsPoint(sy_point_kind kind) { return kind != SY_NO_POINT && kind != SY_CERTIFICATE; }
-
 /// Rows and linear terms alone: a vertex of the relaxation is less fractional than its middle.
 bool IsLinear(const sy_problem& p) {
   return p.P == nullptr && std::all_of(p.cones, p.cones + p.num_cones, [](const sy_cone& cone) {
@@ -139,13 +137,7 @@ class GeneralRun {
   /// The answer where the relaxation leaves nothing to round.
   std::optional<sy_termination> EndOfRelaxation() {
     if (relaxed_.termination == SY_INFEASIBLE) return JudgeContradiction();
-    if (budget_.Stopped()) return budget_.reason();
-    if (relaxed_.termination == SY_UNBOUNDED) return SY_INFEASIBLE_OR_UNBOUNDED;
-    if (bound_ >= budget_.control().cutoff) return SY_CUTOFF;
-    if (!IsPoint(relaxed_.primal)) {
-      const bool solved = relaxed_.termination == SY_OPTIMAL;
-      return solved ? SY_NUMERICAL_TROUBLE : relaxed_.termination;
-    }
+    if (const auto end = EndOf(relaxed_, bound_, budget_)) return end;
     if (options_.dives == 0) return SY_NOT_SOLVED;
     return std::nullopt;
   }

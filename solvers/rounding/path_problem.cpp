@@ -129,6 +129,14 @@ bool IsPathProblem(const sy_problem& problem) {
   return HintOf(problem, "sy.paths/1") != nullptr && HintOf(problem, "sy.blocks/1") != nullptr;
 }
 
+std::vector<std::int32_t> FirstPoints(const sy_paths& paths, const std::int32_t* vertex) {
+  std::vector<std::int32_t> first(At(paths.num_arcs), 0);
+  for (std::int32_t a = 1; a < paths.num_arcs; ++a) {
+    first[At(a)] = first[At(a - 1)] + paths.dim[vertex[a - 1]];
+  }
+  return first;
+}
+
 const char* WhyNot(const sy_problem& problem) {
   if (problem.P != nullptr && (problem.flags & SY_PROBLEM_CONVEX) == 0) {
     return "relax-and-round needs an objective that is known to be convex, and P is not";

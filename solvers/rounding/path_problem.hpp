@@ -26,15 +26,18 @@ class Groups {
 /// Does the problem say which of its variables are arcs, and their blocks?
 bool IsPathProblem(const sy_problem& problem);
 
+/// The first column of each arc's point in tail_point or, for `vertex` = head, in head_point.
+std::vector<std::int32_t> FirstPoints(const sy_paths& paths, const std::int32_t* vertex);
+
 /// Why relax-and-round does not take a problem; "" where it does.
 const char* WhyNot(const sy_problem& problem);
 
 /// The continuous relaxation, borrowing all but its bounds.
 ///
-/// The variables of a scaled block lie in their bounds wherever the block's rows and cones hold and
-/// its flows are in [0, 1]: a backend that makes rows of bounds is better off without them. Flows
-/// and scales keep the lower bound; an upper one that a row of nonnegative terms implies (the
-/// degree of a vertex) goes too.
+/// The variables of a scaled block lie in their bounds wherever its rows and cones and the coupling
+/// rows hold and its flows are in [0, 1]: a backend that makes rows of bounds is better off without
+/// them. Flows and scales keep the lower bound; an upper one that a row of nonnegative terms
+/// implies (the degree of a vertex) goes too.
 struct Relaxation {
   std::vector<double> x_lower, x_upper;
   std::vector<sy_hint> hints;  // the blocks alone

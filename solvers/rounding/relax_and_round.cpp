@@ -22,8 +22,6 @@ constexpr double kDetached = 1e-3;  // flow that no inner point leaves
 constexpr double kViolated = 1e-5;  // by a cut: relative to its terms
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-bool IsPoint(sy_point_kind kind) { return kind != SY_NO_POINT && kind != SY_CERTIFICATE; }
-
 /// One solve: what was found so far.
 class Run {
  public:
@@ -248,17 +246,10 @@ class Run {
     paths.tried(paths.context, nullptr, 0, &told);
   }
 
-  /// The answer where the relaxation leaves nothing to round. What a limit or numerical trouble
-  /// leaves of a relaxed point is as good a guide as any.
+  /// The answer where the relaxation leaves nothing to round.
   std::optional<sy_termination> EndOfRelaxation() {
     if (relaxed_.termination == SY_INFEASIBLE) return JudgeContradiction();
-    if (budget_.Stopped()) return budget_.reason();
-    if (relaxed_.termination == SY_UNBOUNDED) return SY_INFEASIBLE_OR_UNBOUNDED;
-    if (bound_ >= budget_.control().cutoff) return SY_CUTOFF;
-    if (!IsPoint(relaxed_.primal)) {
-      const bool solved = relaxed_.termination == SY_OPTIMAL;
-      return solved ? SY_NUMERICAL_TROUBLE : relaxed_.termination;
-    }
+    if (const auto end = EndOf(relaxed_, bound_, budget_)) return end;
     if (options_.paths == 0) return SY_NOT_SOLVED;
     return std::nullopt;
   }

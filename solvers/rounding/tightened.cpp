@@ -13,14 +13,14 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 std::size_t At(std::int32_t i) { return static_cast<std::size_t>(i); }
 
-double ValueAt(const std::vector<Tightened::Entry>& entries, std::span<const double> x) {
+double ValueAt(const std::vector<Entry>& entries, std::span<const double> x) {
   double value = 0;
   for (const auto& e : entries) value += e.value * x[At(e.variable)];
   return value;
 }
 
 /// Entries of one variable as one; those that cancel go.
-void Merge(std::vector<Tightened::Entry>& entries) {
+void Merge(std::vector<Entry>& entries) {
   std::sort(entries.begin(), entries.end(),
             [](const auto& a, const auto& b) { return a.variable < b.variable; });
   std::size_t kept = 0;
@@ -36,8 +36,7 @@ void Merge(std::vector<Tightened::Entry>& entries) {
 }
 
 /// The factor with sum = factor times scale; NaN: there is none.
-double FactorOf(const std::vector<Tightened::Entry>& sum,
-                const std::vector<Tightened::Entry>& scale) {
+double FactorOf(const std::vector<Entry>& sum, const std::vector<Entry>& scale) {
   if (sum.empty()) return 0;
   if (sum.size() != scale.size()) return kNaN;
   const double factor = sum[0].value / scale[0].value;
@@ -79,15 +78,9 @@ Tightened::Tightened(const PathProblem& whole)
     : whole_(whole),
       p_(whole.problem()),
       in_(Reversed(whole.arcs())),
+      tail_first_(FirstPoints(whole.paths(), whole.paths().tail)),
+      head_first_(FirstPoints(whole.paths(), whole.paths().head)),
       num_blocks_(whole.blocks().num_blocks) {
-  const sy_paths& paths = whole_.paths();
-  std::int32_t tail = 0, head = 0;
-  for (std::int32_t a = 0; a < paths.num_arcs; ++a) {
-    tail_first_.push_back(tail);
-    head_first_.push_back(head);
-    tail += paths.dim[paths.tail[a]];
-    head += paths.dim[paths.head[a]];
-  }
   ListPairs();
 }
 

@@ -24,7 +24,7 @@ Problem PointsOf(const sy_set& set) {
   d.q.assign(At(d.num_vars), 0.0);
   d.P = Csc(d.num_vars, d.num_vars);
   const auto section = [&](const sy_csc& by_rows, std::int32_t row, double& constant) {
-    std::vector<Tightened::Entry> entries;
+    std::vector<Entry> entries;
     for (std::int32_t k = by_rows.start[row]; k < by_rows.start[row + 1]; ++k) {
       if (by_rows.row[k] == 0) {
         constant = by_rows.value[k];
@@ -52,16 +52,6 @@ Problem PointsOf(const sy_set& set) {
   return Problem(std::move(d));
 }
 
-std::vector<std::int32_t> FirstColumns(const sy_paths& paths, const std::int32_t* vertex) {
-  std::vector<std::int32_t> first(At(paths.num_arcs), 0);
-  std::int32_t next = 0;
-  for (std::int32_t a = 0; a < paths.num_arcs; ++a) {
-    first[At(a)] = next;
-    next += paths.dim[vertex[a]];
-  }
-  return first;
-}
-
 }  // namespace
 
 VertexHull::VertexHull(const PathProblem& whole, const sy_host& host, const Options& options,
@@ -71,8 +61,8 @@ VertexHull::VertexHull(const PathProblem& whole, const sy_host& host, const Opti
       options_(options),
       budget_(budget),
       in_(Reversed(whole.arcs())),
-      tail_first_(FirstColumns(whole.paths(), whole.paths().tail)),
-      head_first_(FirstColumns(whole.paths(), whole.paths().head)) {}
+      tail_first_(FirstPoints(whole.paths(), whole.paths().tail)),
+      head_first_(FirstPoints(whole.paths(), whole.paths().head)) {}
 
 bool VertexHull::Asks(std::int32_t v, std::span<const double> x) const {
   const sy_paths& paths = whole_.paths();
@@ -107,7 +97,7 @@ class VertexHull::Separation {
     list(hull.whole_.out().Of(v), paths_.tail_point, hull.tail_first_, out_);
   }
 
-  std::vector<Tightened::Entry> Run(double tolerance) {
+  std::vector<Entry> Run(double tolerance) {
     for (std::size_t j = 0; j < dim_; ++j) {
       CloseBox(j);
       if (!std::isfinite(boxes_.lower[j]) || !std::isfinite(boxes_.upper[j])) return {};
@@ -220,7 +210,7 @@ class VertexHull::Separation {
         d_.x_upper.resize(At(d_.num_vars), kInfinity);
         d_.x_lower[At(first)] = 0;
         const auto copy = [&](const sy_csc& by_rows, std::int32_t row, Rows& to) {
-          std::vector<Tightened::Entry>& entries = to.emplace_back();
+          std::vector<Entry>& entries = to.emplace_back();
           for (std::int32_t e = by_rows.start[row]; e < by_rows.start[row + 1]; ++e) {
             entries.push_back({first + by_rows.row[e], by_rows.value[e]});
           }
@@ -245,7 +235,7 @@ class VertexHull::Separation {
         sides[s].row = static_cast<std::int32_t>(rows_.size());
         const std::vector<double> value = ValueOf(sides[s]);
         for (std::size_t i = 0; i <= dim_; ++i) {
-          std::vector<Tightened::Entry>& entries = rows_.emplace_back();
+          std::vector<Entry>& entries = rows_.emplace_back();
           for (std::size_t p = 0; p < pairs_.size(); ++p) {
             if ((in ? pairs_[p].in : pairs_[p].out) != s) continue;
             entries.push_back(
@@ -296,8 +286,8 @@ class VertexHull::Separation {
     }
   }
 
-  std::vector<Tightened::Entry> Row(double tolerance) const {
-    std::vector<Tightened::Entry> row;
+  std::vector<Entry> Row(double tolerance) const {
+    std::vector<Entry> row;
     double value = 0, largest = 0;
     for (const std::vector<Side>* sides : {&in_, &out_}) {
       for (const Side& side : *sides) {
@@ -320,7 +310,7 @@ class VertexHull::Separation {
       }
     }
     if (!(value < -tolerance * std::max(largest, 1e-9))) return {};
-    for (Tightened::Entry& e : row) e.value /= largest;
+    for (Entry& e : row) e.value /= largest;
     return row;
   }
 
@@ -338,8 +328,8 @@ class VertexHull::Separation {
   Answer answer_;
 };
 
-std::vector<Tightened::Entry> VertexHull::Cut(std::int32_t v, std::span<const double> x,
-                                              double tolerance) const {
+std::vector<Entry> VertexHull::Cut(std::int32_t v, std::span<const double> x,
+                                   double tolerance) const {
   return Separation(*this, v, x).Run(tolerance);
 }
 
