@@ -8,30 +8,6 @@ std::size_t At(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
-const sy_set* GcsTranscription::RecordOf(const ConvexSet& set) {
-  const auto [place, fresh] = record_of_.try_emplace(&set, nullptr);
-  if (!fresh) return place->second;
-  const ScaledSet& scaled = set.scaled();
-  SetRecord& r = records_.emplace_back();
-  r.At = Transpose(scaled.A.View());
-  r.Ft = Transpose(scaled.F.View());
-  r.at = r.At.View();
-  r.ft = r.Ft.View();
-  r.record = {};
-  r.record.size = sizeof r.record;
-  r.record.dim = scaled.dim;
-  r.record.num_aux = scaled.num_aux;
-  r.record.num_rows = scaled.A.rows;
-  r.record.num_cones = static_cast<std::int32_t>(scaled.cones.size());
-  r.record.num_cone_rows = scaled.F.rows;
-  r.record.At = &r.at;
-  r.record.row_lower = scaled.lower.data();
-  r.record.row_upper = scaled.upper.data();
-  r.record.Ft = &r.ft;
-  r.record.cones = scaled.cones.data();
-  return place->second = &r.record;
-}
-
 /// A column for each coordinate of each arc's tail, or head.
 void GcsTranscription::WritePoints(bool tails, Csc& matrix, sy_csc& view) const {
   matrix = Csc(problem_.data().num_vars, 0);
@@ -68,8 +44,8 @@ double GcsTranscription::CostOf(const std::vector<std::int32_t>& arcs,
   std::vector<std::uint8_t> among(edges_.size(), 0);
   for (const std::int32_t a : arcs) among[At(a)] = 1;
   double cost = 0;
-  for (std::size_t j = 0; j < block_of_x_.size(); ++j) {
-    const std::int32_t block = block_of_x_[j];
+  for (std::size_t j = 0; j < p_.block_of_x.size(); ++j) {
+    const std::int32_t block = p_.block_of_x[j];
     const bool counts =
         block >= 0 && among[At(arc_in_[At(block)])] != 0 && among[At(arc_out_[At(block)])] != 0;
     if (counts) cost += problem_.data().q[j] * x[j];
@@ -97,13 +73,13 @@ void GcsTranscription::WriteHints() {
   }
   for (std::size_t a = 0; a < edges_.size(); ++a) {
     for (const std::int32_t v : {graph_.tail[a], graph_.head[a]}) {
-      if (sets_[At(v)] == nullptr) sets_[At(v)] = RecordOf(graph_.vertices[At(v)]->set());
+      if (sets_[At(v)] == nullptr) sets_[At(v)] = written_.sets.Of(graph_.vertices[At(v)]->set());
     }
   }
   WritePoints(true, tail_point_, paths_.tail_point);
   WritePoints(false, head_point_, paths_.head_point);
-  blocks_ = {sizeof blocks_,       num_blocks_,           block_of_x_.data(),
-             block_of_row_.data(), block_of_cone_.data(), nullptr};
+  blocks_ = {sizeof blocks_,         p_.num_blocks(),         p_.block_of_x.data(),
+             p_.block_of_row.data(), p_.block_of_cone.data(), nullptr};
   paths_.size = sizeof paths_;
   paths_.num_vertices = static_cast<std::int32_t>(graph_.vertices.size());
   paths_.num_arcs = count;

@@ -1,9 +1,9 @@
 #include "core/gcs/pruning.hpp"
 
 #include <algorithm>
-#include <unordered_map>
 
 #include "switchyard/error.hpp"
+#include "switchyard/problem.hpp"
 
 namespace switchyard {
 namespace {
@@ -11,43 +11,47 @@ namespace {
 using Vertex = GraphOfConvexSets::Vertex;
 using Edge = GraphOfConvexSets::Edge;
 
+std::vector<std::int32_t> IndexById(const std::vector<const Vertex*>& vertices) {
+  std::vector<std::int32_t> index;
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    const auto id = static_cast<std::size_t>(vertices[i]->id().value);
+    if (id >= index.size()) index.resize(id + id / 2 + 1, -1);
+    index[id] = static_cast<std::int32_t>(i);
+  }
+  return index;
+}
+
 /// What user and sets exclude.
 std::vector<std::uint8_t> Allowed(const PrunedGraph& g) {
   const std::vector<const Edge*>& edges = g.edges;
   std::vector<std::uint8_t> allowed(edges.size(), 1);
   std::vector<std::int32_t> forced_out(g.vertices.size(), -1);
   std::vector<std::int32_t> forced_in = forced_out;
+  std::vector<std::uint8_t> empty(g.vertices.size());
+  for (std::size_t v = 0; v < empty.size(); ++v) {
+    empty[v] = g.vertices[v]->set().bounding_box().empty ? 1 : 0;
+  }
   for (std::size_t a = 0; a < edges.size(); ++a) {
     if (edges[a]->phi_value() != true) continue;
     forced_out[static_cast<std::size_t>(g.tail[a])] = static_cast<std::int32_t>(a);
     forced_in[static_cast<std::size_t>(g.head[a])] = static_cast<std::int32_t>(a);
   }
   for (std::size_t a = 0; a < edges.size(); ++a) {
-    const Edge& edge = *edges[a];
-    const std::int32_t out = forced_out[static_cast<std::size_t>(g.tail[a])];
-    const std::int32_t in = forced_in[static_cast<std::size_t>(g.head[a])];
+    const auto u = static_cast<std::size_t>(g.tail[a]), v = static_cast<std::size_t>(g.head[a]);
+    const std::int32_t out = forced_out[u], in = forced_in[v];
     const auto self = static_cast<std::int32_t>(a);
     const bool beside_forced = (out >= 0 && out != self) || (in >= 0 && in != self);
-    const bool empty = edge.u().set().bounding_box().empty || edge.v().set().bounding_box().empty;
-    if (edge.phi_value() == false || beside_forced || empty) allowed[a] = 0;
+    const bool never = edges[a]->phi_value() == false || empty[u] != 0 || empty[v] != 0;
+    if (never || beside_forced) allowed[a] = 0;
   }
   return allowed;
 }
 
-template <class T>
-std::vector<T> Kept(const std::vector<T>& v, const std::vector<std::uint8_t>& keep) {
-  std::vector<T> kept;
-  for (std::size_t i = 0; i < v.size(); ++i) {
-    if (keep[i] != 0) kept.push_back(v[i]);
-  }
-  return kept;
-}
-
 void KeepArcs(const std::vector<std::uint8_t>& keep, PrunedGraph& g) {
-  g.edges = Kept(g.edges, keep);
-  g.place = Kept(g.place, keep);
-  g.tail = Kept(g.tail, keep);
-  g.head = Kept(g.head, keep);
+  g.edges = Keep(g.edges, keep);
+  g.place = Keep(g.place, keep);
+  g.tail = Keep(g.tail, keep);
+  g.head = Keep(g.head, keep);
 }
 
 }  // namespace
@@ -59,13 +63,15 @@ PrunedGraph Prune(const GraphOfConvexSets& graph, const Vertex& source, const Ve
   g.edges = graph.Edges();
   g.place.resize(g.edges.size());
   for (std::size_t e = 0; e < g.edges.size(); ++e) g.place[e] = static_cast<int>(e);
-  std::unordered_map<const Vertex*, std::int32_t> index;
-  for (const Vertex* v : g.vertices) index.emplace(v, static_cast<std::int32_t>(index.size()));
-  g.source = index.at(&source);
-  g.target = index.at(&target);
+  const std::vector<std::int32_t> index = IndexById(g.vertices);
+  const auto index_of = [&](const Vertex& v) {
+    return index[static_cast<std::size_t>(v.id().value)];
+  };
+  g.source = index_of(source);
+  g.target = index_of(target);
   for (const Edge* edge : g.edges) {
-    g.tail.push_back(index.at(&edge->u()));
-    g.head.push_back(index.at(&edge->v()));
+    g.tail.push_back(index_of(edge->u()));
+    g.head.push_back(index_of(edge->v()));
   }
   std::vector<const Edge*> forced;
   for (const Edge* edge : g.edges) {

@@ -33,12 +33,12 @@ void Say(const std::string& text, sy_result& result) {
 }  // namespace
 
 Search::Search(const GraphOfConvexSets& graph, const Vertex& source, const Vertex& target,
-               const GraphOfConvexSetsOptions& options, TermBlocks& blocks, Host& host)
+               const GraphOfConvexSetsOptions& options, WrittenProgram& written, Host& host)
     : graph_(graph),
       source_(source),
       target_(target),
       options_(options),
-      blocks_(blocks),
+      written_(written),
       host_(host),
       as_(TranscriptionOf(options)) {}
 
@@ -88,7 +88,7 @@ bool Search::Prune() {
 
 void Search::Transcribe() {
   const auto start = Clock::now();
-  transcription_ = std::make_unique<GcsTranscription>(pruned_, as_, true, &blocks_);
+  transcription_ = std::make_unique<GcsTranscription>(pruned_, as_, true, &written_);
   sy_paths& paths = transcription_->paths();
   paths.context = this;
   paths.tried = [](void* context, const std::int32_t* arcs, std::int32_t count,
@@ -115,7 +115,7 @@ void Search::Transcribe() {
 
 void Search::WarnOfUnbounded() {
   constexpr std::size_t kNamed = 3;
-  const std::vector<const Vertex*> unbounded = UnboundedVertices(pruned_, blocks_);
+  const std::vector<const Vertex*> unbounded = UnboundedVertices(pruned_, written_.blocks);
   for (std::size_t k = 0; k < std::min(unbounded.size(), kNamed); ++k) {
     result().notes.push_back(Text(
         "vertex ", unbounded[k]->name(),

@@ -10,7 +10,6 @@
 
 #include "core/gcs/path_point.hpp"
 #include "core/gcs/pruning.hpp"
-#include "core/gcs/term_block.hpp"
 #include "core/gcs/term_tags.hpp"
 #include "core/gcs/transcription.hpp"
 #include "core/solve/choice.hpp"
@@ -26,9 +25,9 @@ class Search {
   using Edge = GraphOfConvexSets::Edge;
   using Transcription = GraphOfConvexSets::Transcription;
 
-  /// `blocks`: of the transcription that the options choose; see TranscriptionOf.
+  /// `written`: by the transcription that the options choose; see TranscriptionOf.
   Search(const GraphOfConvexSets& graph, const Vertex& source, const Vertex& target,
-         const GraphOfConvexSetsOptions& options, TermBlocks& blocks, Host& host);
+         const GraphOfConvexSetsOptions& options, WrittenProgram& written, Host& host);
 
   static Transcription TranscriptionOf(const GraphOfConvexSetsOptions& options) {
     return options.convex_relaxation == false ? Transcription::kMIP : Transcription::kRelaxation;
@@ -78,7 +77,7 @@ class Search {
   const Vertex& source_;
   const Vertex& target_;
   const GraphOfConvexSetsOptions& options_;
-  TermBlocks& blocks_;
+  WrittenProgram& written_;
   Host& host_;
   const Transcription as_;
   const std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();

@@ -1,15 +1,14 @@
 #include "switchyard/gcs/shortest_path.hpp"
 
 #include "core/gcs/search.hpp"
-#include "core/gcs/term_block.hpp"
 
 namespace switchyard {
 
 using Transcription = GraphOfConvexSets::Transcription;
 
 struct ShortestPathSearch::Written {
-  TermBlocks relaxation{Transcription::kRelaxation};
-  TermBlocks whole{Transcription::kMIP};
+  WrittenProgram relaxation{Transcription::kRelaxation};
+  WrittenProgram whole{Transcription::kMIP};
 };
 
 ShortestPathSearch::ShortestPathSearch(const GraphOfConvexSets& graph, Host& host)

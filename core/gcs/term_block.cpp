@@ -194,14 +194,20 @@ const VertexBlocks& TermBlocks::Of(const Vertex& v) {
 }
 
 const EdgeBlocks& TermBlocks::Of(const Edge& e, bool ends) {
+  const std::uint64_t of_u = Of(e.u()).stamp, of_v = Of(e.v()).stamp;
+  return Of(e, ends, of_u, of_v);
+}
+
+const EdgeBlocks& TermBlocks::Of(const Edge& e, bool ends, std::uint64_t stamp_of_u,
+                                 std::uint64_t stamp_of_v) {
   const std::size_t at = At(e.id().value);
   if (at >= of_edge_.size()) of_edge_.resize(at + at / 2 + 1);
   std::uint64_t stamp = kBegin;
   Stamp(e.costs(), stamp);
   Stamp(e.constraints(), stamp);
   Mix(static_cast<std::uint64_t>(e.slacks().size()), stamp);
-  Mix(Of(e.u()).stamp, stamp);
-  Mix(Of(e.v()).stamp, stamp);
+  Mix(stamp_of_u, stamp);
+  Mix(stamp_of_v, stamp);
   if (of_edge_[at].stamp != stamp) of_edge_[at] = {&Terms(e), {nullptr, nullptr}, stamp};
   if (of_edge_[at].fixed[ends ? 1 : 0] == nullptr) {
     of_edge_[at].fixed[ends ? 1 : 0] = &Fixed(e, ends);

@@ -75,10 +75,13 @@ class TermBlocks {
 
   explicit TermBlocks(GraphOfConvexSets::Transcription as) : as_(as) {}
 
-  /// Both throw InvalidArgument, naming it, for a term that has no perspective. What is returned
+  /// They throw InvalidArgument, naming it, for a term that has no perspective. What is returned
   /// stays in place until the next call.
   const VertexBlocks& Of(const Vertex& v);
   const EdgeBlocks& Of(const Edge& e, bool ends);
+  /// Where its vertices' are known.
+  const EdgeBlocks& Of(const Edge& e, bool ends, std::uint64_t stamp_of_u,
+                       std::uint64_t stamp_of_v);
 
  private:
   using Key = std::vector<std::uint64_t>;

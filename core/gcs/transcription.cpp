@@ -11,26 +11,28 @@ std::size_t At(std::int32_t i) { return static_cast<std::size_t>(i); }
 }  // namespace
 
 GcsTranscription::GcsTranscription(const PrunedGraph& graph, Transcription as, bool transitions,
-                                   TermBlocks* blocks)
+                                   WrittenProgram* written)
     : graph_(graph),
-      own_blocks_(as),
+      own_(written == nullptr ? std::make_unique<WrittenProgram>(as) : nullptr),
+      written_(written == nullptr ? *own_ : *written),
+      p_(written_.programs.now),
+      problem_(written_.problem),
       plan_(graph, transitions),
       point_(graph.vertices.size()),
       edges_(graph.edges.size()),
       transitions_(plan_.all().size()) {
-  FindBlocks(blocks != nullptr ? *blocks : own_blocks_);
-  num_blocks_ = static_cast<std::int32_t>(edges_.size());
-  for (std::size_t a = 0; a < edges_.size(); ++a) AddEdgeVariables(a);
-  for (std::size_t k = 0; k < transitions_.size(); ++k) AddTransitionVariables(k);
-  for (std::size_t a = 0; a < edges_.size(); ++a) WriteEdge(a);
-  for (std::size_t k = 0; k < transitions_.size(); ++k) WriteTransition(k);
-  block_ = -1;
+  FindBlocks();
+  std::swap(written_.programs.now, written_.programs.before);
+  p_.Clear();
+  WriteBlocks();
+  PlaceBlocks();
   WriteCoupling();
   Finish();
   WriteHints();
 }
 
-void GcsTranscription::FindBlocks(TermBlocks& blocks) {
+void GcsTranscription::FindBlocks() {
+  TermBlocks& blocks = written_.blocks;
   blocks_of_vertex_.resize(graph_.vertices.size());
   for (std::size_t a = 0; a < edges_.size(); ++a) {
     for (const std::int32_t v : {graph_.tail[a], graph_.head[a]}) {
@@ -38,31 +40,91 @@ void GcsTranscription::FindBlocks(TermBlocks& blocks) {
       point_[At(v)] = graph_.vertices[At(v)]->set().MaybeGetPoint();
       blocks_of_vertex_[At(v)] = blocks.Of(*graph_.vertices[At(v)]);
     }
-    blocks_of_edge_.push_back(blocks.Of(*graph_.edges[a], graph_.head[a] == graph_.target));
+    blocks_of_edge_.push_back(blocks.Of(*graph_.edges[a], graph_.head[a] == graph_.target,
+                                        blocks_of_vertex_[At(graph_.tail[a])].stamp,
+                                        blocks_of_vertex_[At(graph_.head[a])].stamp));
+  }
+}
+
+BlockKey GcsTranscription::KeyOf(std::size_t arc) const {
+  const GraphOfConvexSets::Edge& edge = *graph_.edges[arc];
+  const std::int32_t v = graph_.head[arc];
+  std::uint32_t shape = 0;
+  for (const bool bit : {edge.phi_value() == true, plan_.OwnsTail(arc), plan_.OwnsHead(arc),
+                         v == graph_.target, plan_.At(v)}) {
+    shape = 2 * shape + (bit ? 1 : 0);
+  }
+  return {2 * static_cast<std::uint64_t>(edge.id().value), blocks_of_edge_[arc].stamp, shape};
+}
+
+BlockKey GcsTranscription::KeyOf(const Transition& t) const {
+  const auto id = static_cast<std::uint64_t>(graph_.vertices[At(t.vertex)]->id().value);
+  return {2 * id + 1, blocks_of_vertex_[At(t.vertex)].stamp, 0};
+}
+
+// Those of the program before are copied where they are the same.
+void GcsTranscription::WriteBlocks() {
+  const BlockProgram& before = written_.programs.before;
+  BlockCopies copies(before, p_);
+  const auto write = [&](const BlockKey& key, std::int32_t nth, auto&& afresh) {
+    if (const std::int32_t same = before.Find(key, nth); same >= 0) return copies.Add(same);
+    copies.Flush();
+    block_ = p_.num_blocks();
+    p_.Begin(key);
+    afresh();
+  };
+  for (std::size_t a = 0; a < edges_.size(); ++a) {
+    write(KeyOf(a), 0, [&] { WriteEdge(a); });
+  }
+  std::int32_t vertex = -1, nth = 0;
+  for (const Transition& t : plan_.all()) {
+    if (t.copy != Transition::Copy::kOwn) continue;
+    nth = t.vertex == vertex ? nth + 1 : 0;
+    vertex = t.vertex;
+    write(KeyOf(t), nth, [&] { WriteTransition(t); });
+  }
+  copies.Flush();
+  block_ = -1;
+  p_.EndBlocks();
+}
+
+// Where each edge's and each transition's variables stand.
+void GcsTranscription::PlaceBlocks() {
+  std::size_t block = 0;
+  for (std::size_t a = 0; a < edges_.size(); ++a) {
+    const BlockProgram::Place& at = p_.places[block++];
+    edges_[a] = {at.x, at.slack < 0 ? -1 : at.x + at.slack, at.end,
+                 at.end + DimensionAt(graph_.tail[a])};
+  }
+  for (std::size_t k = 0; k < transitions_.size(); ++k) {
+    const Transition& t = plan_.all()[k];
+    if (t.copy != Transition::Copy::kOwn) continue;
+    const std::int32_t lambda = p_.places[block].x;
+    transitions_[k] = {lambda, PointAt(t.vertex) ? -1 : lambda + 1,
+                       static_cast<std::int32_t>(block++)};
   }
 }
 
 // ---- variables ----
 
 std::int32_t GcsTranscription::AddVariables(std::int32_t count) {
-  const auto first = static_cast<std::int32_t>(data_.q.size());
-  const std::size_t all = data_.q.size() + At(count);
-  data_.q.resize(all, 0.0);
-  data_.x_lower.resize(all, -kInfinity);
-  data_.x_upper.resize(all, kInfinity);
-  data_.integer.resize(all, 0);
-  block_of_x_.resize(all, block_);
+  const auto first = static_cast<std::int32_t>(p_.q.size());
+  const std::size_t all = p_.q.size() + At(count);
+  p_.q.resize(all, 0.0);
+  p_.x_lower.resize(all, -kInfinity);
+  p_.x_upper.resize(all, kInfinity);
+  p_.integer.resize(all, 0);
+  p_.block_of_x.resize(all, block_);
   return first;
 }
 
 std::int32_t GcsTranscription::AddPoint(std::int32_t vertex) {
-  if (PointAt(vertex)) return -1;
   const ConvexSet& set = graph_.vertices[At(vertex)]->set();
   const SetBox& box = set.bounding_box();
   const std::int32_t first = AddVariables(set.ambient_dimension());
   for (int i = 0; i < set.ambient_dimension(); ++i) {
-    data_.x_lower[At(first + i)] = std::min(0.0, box.lower[i]);
-    data_.x_upper[At(first + i)] = std::max(0.0, box.upper[i]);
+    p_.x_lower[At(first + i)] = std::min(0.0, box.lower[i]);
+    p_.x_upper[At(first + i)] = std::max(0.0, box.upper[i]);
   }
   return first;
 }
@@ -71,66 +133,54 @@ void GcsTranscription::AddEnd(std::int32_t vertex, std::int32_t scale,
                               std::span<const FixedCoordinate> fixed) {
   const std::int32_t n = DimensionAt(vertex);
   if (PointAt(vertex)) {
-    for (std::int32_t i = 0; i < n; ++i) ends_.push_back({scale, (*PointAt(vertex))[i]});
+    for (std::int32_t i = 0; i < n; ++i) p_.ends.push_back({scale, (*PointAt(vertex))[i]});
     return;
   }
   const SetBox& box = graph_.vertices[At(vertex)]->set().bounding_box();
   auto next = fixed.begin();
   for (std::int32_t i = 0; i < n; ++i) {
     if (next != fixed.end() && next->place == i) {
-      ends_.push_back({scale, next++->value});
+      p_.ends.push_back({scale, next++->value});
       continue;
     }
     const std::int32_t j = AddVariables(1);
-    data_.x_lower[At(j)] = std::min(0.0, box.lower[i]);
-    data_.x_upper[At(j)] = std::max(0.0, box.upper[i]);
-    ends_.push_back({j, 1});
+    p_.x_lower[At(j)] = std::min(0.0, box.lower[i]);
+    p_.x_upper[At(j)] = std::max(0.0, box.upper[i]);
+    p_.ends.push_back({j, 1});
   }
 }
 
 void GcsTranscription::AddEdgeVariables(std::size_t arc) {
-  block_ = static_cast<std::int32_t>(arc);
   const GraphOfConvexSets::Edge& edge = *graph_.edges[arc];
   EdgeVariables& at = edges_[arc];
   at.phi = AddVariables(1);
-  data_.x_lower[At(at.phi)] = edge.phi_value() == true ? 1 : 0;
-  data_.x_upper[At(at.phi)] = 1;
-  data_.integer[At(at.phi)] = 1;
+  p_.x_lower[At(at.phi)] = edge.phi_value() == true ? 1 : 0;
+  p_.x_upper[At(at.phi)] = 1;
+  p_.integer[At(at.phi)] = 1;
   const std::vector<FixedCoordinate>& fixed = *FixedOf(arc);
   const std::int32_t of_u = DimensionAt(graph_.tail[arc]);
   const auto of_v = std::find_if(fixed.begin(), fixed.end(),
                                  [&](const FixedCoordinate& c) { return c.place >= of_u; });
   std::vector<FixedCoordinate> at_v(of_v, fixed.end());
   for (FixedCoordinate& c : at_v) c.place -= of_u;
-  at.tail = static_cast<std::int32_t>(ends_.size());
+  at.tail = static_cast<std::int32_t>(p_.ends.size());
   AddEnd(graph_.tail[arc], at.phi, {fixed.begin(), of_v});
-  at.head = static_cast<std::int32_t>(ends_.size());
+  at.head = static_cast<std::int32_t>(p_.ends.size());
   AddEnd(graph_.head[arc], at.phi, at_v);
-  if (edge.slacks().size() > 0) {
-    at.slack = AddVariables(static_cast<std::int32_t>(edge.slacks().size()));
-  }
+  if (edge.slacks().size() == 0) return;
+  at.slack = AddVariables(static_cast<std::int32_t>(edge.slacks().size()));
+  p_.places.back().slack = at.slack - at.phi;
 }
 
-void GcsTranscription::AddTransitionVariables(std::size_t k) {
-  const Transition& t = plan_.all()[k];
-  if (t.copy != Transition::Copy::kOwn) return;
-  block_ = transitions_[k].block = num_blocks_++;
-  transitions_[k].lambda = AddVariables(1);
-  data_.x_lower[At(transitions_[k].lambda)] = 0;
-  data_.x_upper[At(transitions_[k].lambda)] = 1;
-  if (!PointAt(t.vertex)) transitions_[k].w = AddPoint(t.vertex);
+std::span<const Column> GcsTranscription::Tail(std::size_t arc) const {
+  return std::span(p_.ends).subspan(At(edges_[arc].tail), At(DimensionAt(graph_.tail[arc])));
 }
 
-std::span<const GcsTranscription::Column> GcsTranscription::Tail(std::size_t arc) const {
-  return std::span(ends_).subspan(At(edges_[arc].tail), At(DimensionAt(graph_.tail[arc])));
+std::span<const Column> GcsTranscription::Head(std::size_t arc) const {
+  return std::span(p_.ends).subspan(At(edges_[arc].head), At(DimensionAt(graph_.head[arc])));
 }
 
-std::span<const GcsTranscription::Column> GcsTranscription::Head(std::size_t arc) const {
-  return std::span(ends_).subspan(At(edges_[arc].head), At(DimensionAt(graph_.head[arc])));
-}
-
-GcsTranscription::Column GcsTranscription::CopyOf(const Transition& t, std::size_t k,
-                                                  std::int32_t i) const {
+Column GcsTranscription::CopyOf(const Transition& t, std::size_t k, std::int32_t i) const {
   switch (t.copy) {
     case Transition::Copy::kOut:
       return Tail(At(t.out))[At(i)];
@@ -156,7 +206,7 @@ std::int32_t GcsTranscription::ScaleOf(const Transition& t, std::size_t k) const
 // ---- blocks ----
 
 void GcsTranscription::WriteEdge(std::size_t arc) {
-  block_ = static_cast<std::int32_t>(arc);
+  AddEdgeVariables(arc);
   const GraphOfConvexSets::Edge& edge = *graph_.edges[arc];
   const std::int32_t u = graph_.tail[arc], v = graph_.head[arc];
   const EdgeVariables& at = edges_[arc];
@@ -188,16 +238,21 @@ void GcsTranscription::WriteEdge(std::size_t arc) {
   WriteSquares(at.phi);
 }
 
-void GcsTranscription::WriteTransition(std::size_t k) {
-  const Transition& t = plan_.all()[k];
-  if (t.copy != Transition::Copy::kOwn) return;
-  block_ = transitions_[k].block;
-  columns_.assign(1, {transitions_[k].lambda, 1});
-  for (std::int32_t i = 0; i < DimensionAt(t.vertex); ++i) columns_.push_back(CopyOf(t, k, i));
+void GcsTranscription::WriteTransition(const Transition& t) {
+  const std::int32_t lambda = AddVariables(1);
+  p_.x_lower[At(lambda)] = 0;
+  p_.x_upper[At(lambda)] = 1;
+  columns_.assign(1, {lambda, 1});
   const VertexBlocks& of = blocks_of_vertex_[At(t.vertex)];
-  if (!PointAt(t.vertex)) WriteBlock(*of.set);
+  if (PointAt(t.vertex)) {
+    for (const double value : *PointAt(t.vertex)) columns_.push_back({lambda, value});
+  } else {
+    const std::int32_t w = AddPoint(t.vertex);
+    for (std::int32_t i = 0; i < DimensionAt(t.vertex); ++i) columns_.push_back({w + i, 1});
+    WriteBlock(*of.set);
+  }
   WriteBlock(*of.terms);
-  WriteSquares(transitions_[k].lambda);
+  WriteSquares(lambda);
 }
 
 template <class Take>
@@ -214,25 +269,17 @@ void GcsTranscription::EachEntry(const PlacedRows& rows, std::size_t row, const 
   }
 }
 
-/// The block of all variables of the row that was begun last, if they have but one.
-std::int32_t GcsTranscription::BlockOfRow(const RowMatrix& matrix) const {
-  const auto columns = matrix.Columns();
-  const bool within = std::all_of(columns.begin(), columns.end(),
-                                  [&](std::int32_t j) { return block_of_x_[At(j)] == block_; });
-  return within ? block_ : -1;
-}
-
 // Over the places as they are filled.
 void GcsTranscription::WriteBlock(const TermBlock& block) {
   const std::int32_t own = block.num_own > 0 ? AddVariables(block.num_own) : 0;
-  std::copy(block.own_lower.begin(), block.own_lower.end(), data_.x_lower.begin() + own);
-  std::copy(block.own_upper.begin(), block.own_upper.end(), data_.x_upper.begin() + own);
+  std::copy(block.own_lower.begin(), block.own_lower.end(), p_.x_lower.begin() + own);
+  std::copy(block.own_upper.begin(), block.own_upper.end(), p_.x_upper.begin() + own);
   for (std::size_t j = 0; j < block.cost.size(); ++j) {
     if (block.cost[j] == 0) continue;
     const auto place = static_cast<std::int32_t>(j);
     const Column column =
         place < block.num_places ? columns_[j] : Column{own + place - block.num_places, 1};
-    data_.q[At(column.variable)] += block.cost[j] * column.factor;
+    p_.q[At(column.variable)] += block.cost[j] * column.factor;
   }
   WriteRows(block, own);
   WriteCones(block, own);
@@ -253,12 +300,12 @@ void GcsTranscription::WriteRows(const TermBlock& block, std::int32_t own) {
     BeginRow(block.lower[i], block.upper[i]);
     double size = 0;
     EachEntry(block.rows, i, block, own, [&](std::int32_t j, double value) {
-      A_.Add(j, value);
+      p_.A.Add(j, value);
       size = std::max(size, std::abs(value));
     });
-    const auto columns = A_.Columns();
+    const auto columns = p_.A.Columns();
     if (columns.empty() || (columns.size() == 1 && columns[0] == scale)) {
-      const double value = columns.empty() ? 0 : A_.Values()[0];
+      const double value = columns.empty() ? 0 : p_.A.Values()[0];
       const bool holds = (block.upper[i] == kInfinity || value <= kRounding * size) &&
                          (block.lower[i] == -kInfinity || value >= -kRounding * size);
       if (holds) {
@@ -266,22 +313,20 @@ void GcsTranscription::WriteRows(const TermBlock& block, std::int32_t own) {
         continue;
       }
     }
-    block_of_row_.push_back(BlockOfRow(A_));
+    p_.block_of_row.push_back(block_);
   }
 }
 
 void GcsTranscription::WriteCones(const TermBlock& block, std::int32_t own) {
   std::size_t row = 0;
   for (const sy_cone& cone : block.cones) {
-    std::int32_t of = block_;
     for (std::int32_t i = 0; i < cone.dim; ++i, ++row) {
-      F_.Begin();
+      p_.F.Begin();
       EachEntry(block.cone_rows, row, block, own,
-                [&](std::int32_t j, double value) { F_.Add(j, value); });
-      if (BlockOfRow(F_) != block_) of = -1;
+                [&](std::int32_t j, double value) { p_.F.Add(j, value); });
     }
-    data_.cones.push_back(cone);
-    block_of_cone_.push_back(of);
+    p_.cones.push_back(cone);
+    p_.block_of_cone.push_back(block_);
   }
 }
 
@@ -289,20 +334,18 @@ void GcsTranscription::WriteCones(const TermBlock& block, std::int32_t own) {
 void GcsTranscription::WriteSquares(std::int32_t scale) {
   if (square_end_.empty()) return;
   const std::int32_t epigraph = AddVariables(1);
-  data_.q[At(epigraph)] = 1;
-  std::int32_t of = block_;
-  F_.Begin();
-  F_.Add(scale, 1);
-  F_.Begin();
-  F_.Add(epigraph, 1);
+  p_.q[At(epigraph)] = 1;
+  p_.F.Begin();
+  p_.F.Add(scale, 1);
+  p_.F.Begin();
+  p_.F.Add(epigraph, 1);
   std::size_t next = 0;
   for (const std::size_t end : square_end_) {
-    F_.Begin();
-    for (; next < end; ++next) F_.Add(squares_[next].variable, squares_[next].factor);
-    if (BlockOfRow(F_) != block_) of = -1;
+    p_.F.Begin();
+    for (; next < end; ++next) p_.F.Add(squares_[next].variable, squares_[next].factor);
   }
-  data_.cones.push_back({SY_CONE_ROTATED, 2 + static_cast<std::int32_t>(square_end_.size()), 0});
-  block_of_cone_.push_back(of);
+  p_.cones.push_back({SY_CONE_ROTATED, 2 + static_cast<std::int32_t>(square_end_.size()), 0});
+  p_.block_of_cone.push_back(block_);
   squares_.clear();
   square_end_.clear();
 }
@@ -310,15 +353,15 @@ void GcsTranscription::WriteSquares(std::int32_t scale) {
 // ---- coupling ----
 
 void GcsTranscription::BeginRow(double lower, double upper) {
-  data_.row_lower.push_back(lower);
-  data_.row_upper.push_back(upper);
-  A_.Begin();
+  p_.row_lower.push_back(lower);
+  p_.row_upper.push_back(upper);
+  p_.A.Begin();
 }
 
 void GcsTranscription::DropRow() {
-  data_.row_lower.pop_back();
-  data_.row_upper.pop_back();
-  A_.Drop();
+  p_.row_lower.pop_back();
+  p_.row_upper.pop_back();
+  p_.A.Drop();
 }
 
 void GcsTranscription::WriteCoupling() {
@@ -332,9 +375,9 @@ void GcsTranscription::WriteCoupling() {
     }
     if (v == graph_.source || v == graph_.target) continue;
     BeginRow(-kInfinity, 1);
-    for (const std::int32_t a : out.Of(v)) A_.Add(edges_[At(a)].phi, 1);
+    for (const std::int32_t a : out.Of(v)) p_.A.Add(edges_[At(a)].phi, 1);
   }
-  block_of_row_.resize(data_.row_lower.size(), -1);
+  p_.block_of_row.resize(p_.row_lower.size(), -1);
 }
 
 // Of flow and, between arcs in and out, of points; a point's spatial rows follow from its flow.
@@ -342,15 +385,15 @@ void GcsTranscription::WriteFlow(std::int32_t vertex, std::span<const std::int32
                                  std::span<const std::int32_t> out) {
   const double net = vertex == graph_.source ? 1 : vertex == graph_.target ? -1 : 0;
   BeginRow(net, net);
-  for (const std::int32_t a : out) A_.Add(edges_[At(a)].phi, 1);
-  for (const std::int32_t a : in) A_.Add(edges_[At(a)].phi, -1);
+  for (const std::int32_t a : out) p_.A.Add(edges_[At(a)].phi, 1);
+  for (const std::int32_t a : in) p_.A.Add(edges_[At(a)].phi, -1);
   if (net != 0 || PointAt(vertex)) return;
   for (std::size_t i = 0; i < At(DimensionAt(vertex)); ++i) {
     BeginRow(0, 0);
     for (const std::int32_t a : out) {
-      A_.Add(Tail(At(a))[i].variable, Tail(At(a))[i].factor);
+      p_.A.Add(Tail(At(a))[i].variable, Tail(At(a))[i].factor);
     }
-    for (const std::int32_t a : in) A_.Add(Head(At(a))[i].variable, -Head(At(a))[i].factor);
+    for (const std::int32_t a : in) p_.A.Add(Head(At(a))[i].variable, -Head(At(a))[i].factor);
   }
 }
 
@@ -373,26 +416,34 @@ void GcsTranscription::WriteTransitionFlow(std::int32_t vertex, std::span<const 
 void GcsTranscription::WriteSum(std::span<const std::int32_t> transitions, std::int32_t flow,
                                 std::span<const Column> end) {
   BeginRow(0, 0);
-  for (const std::int32_t k : transitions) A_.Add(ScaleOf(plan_.all()[At(k)], At(k)), 1);
-  A_.Add(flow, -1);
+  for (const std::int32_t k : transitions) p_.A.Add(ScaleOf(plan_.all()[At(k)], At(k)), 1);
+  p_.A.Add(flow, -1);
   for (std::size_t i = 0; i < end.size(); ++i) {
     BeginRow(0, 0);
     for (const std::int32_t k : transitions) {
       const Column copy = CopyOf(plan_.all()[At(k)], At(k), static_cast<std::int32_t>(i));
-      A_.Add(copy.variable, copy.factor);
+      p_.A.Add(copy.variable, copy.factor);
     }
-    A_.Add(end[i].variable, -end[i].factor);
+    p_.A.Add(end[i].variable, -end[i].factor);
   }
 }
 
 void GcsTranscription::Finish() {
-  data_.flags = SY_PROBLEM_CONVEX;
-  data_.num_vars = static_cast<std::int32_t>(data_.q.size());
-  data_.P = Csc(data_.num_vars, data_.num_vars);
-  data_.A = A_.Take(data_.num_vars);
-  data_.g.assign(At(F_.rows()), 0.0);
-  data_.F = F_.Take(data_.num_vars);
-  problem_ = Problem(std::move(data_));
+  problem_.Change([&](ProblemData& d) {
+    d.flags = SY_PROBLEM_CONVEX;
+    d.num_vars = static_cast<std::int32_t>(p_.q.size());
+    d.P = Csc(d.num_vars, d.num_vars);
+    d.q = p_.q;
+    d.x_lower = p_.x_lower;
+    d.x_upper = p_.x_upper;
+    d.integer = p_.integer;
+    p_.A.WriteByColumns(d.num_vars, d.A);
+    d.row_lower = p_.row_lower;
+    d.row_upper = p_.row_upper;
+    p_.F.WriteByColumns(d.num_vars, d.F);
+    d.g.assign(At(p_.F.rows()), 0.0);
+    d.cones = p_.cones;
+  });
 }
 
 }  // namespace switchyard

@@ -3,20 +3,31 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
+#include <memory>
 #include <optional>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
+#include "core/gcs/block_program.hpp"
 #include "core/gcs/fixed_ends.hpp"
 #include "core/gcs/pruning.hpp"
+#include "core/gcs/set_records.hpp"
 #include "core/gcs/term_block.hpp"
 #include "core/gcs/transitions.hpp"
-#include "core/problem/row_matrix.hpp"
 #include "switchyard/hints.h"
 
 namespace switchyard {
+
+/// What one transcription of a graph leaves to the next: blocks of terms, and the program, of which
+/// what is the same is copied. Stays in place while the transcription does.
+struct WrittenProgram {
+  explicit WrittenProgram(GraphOfConvexSets::Transcription as) : blocks(as) {}
+
+  TermBlocks blocks;
+  BlockPrograms programs;
+  Problem problem;  // the last one
+  SetRecords sets;
+};
 
 /// The program of a pruned graph, lean: no rows for two-cycles, linear costs in the objective, one
 /// rotated cone for the squares of a block, nothing for edges that are on no path.
@@ -40,11 +51,11 @@ class GcsTranscription {
  public:
   using Transcription = GraphOfConvexSets::Transcription;
 
-  /// `transitions`: may vertices count them? `blocks`: of the same transcription of the same
-  /// graph, kept between its prunings; nullptr: none. Throws InvalidArgument, naming it, for a term
-  /// that has no perspective.
+  /// `transitions`: may vertices count them? `written`: by the same transcription of the same
+  /// graph, of which one at a time is there; nullptr: nothing. Throws InvalidArgument, naming it,
+  /// for a term that has no perspective.
   GcsTranscription(const PrunedGraph& graph, Transcription as, bool transitions = true,
-                   TermBlocks* blocks = nullptr);
+                   WrittenProgram* written = nullptr);
   GcsTranscription(const GcsTranscription&) = delete;
   GcsTranscription& operator=(const GcsTranscription&) = delete;
 
@@ -62,37 +73,30 @@ class GcsTranscription {
   [[nodiscard]] sy_paths& paths() { return paths_; }
 
  private:
-  /// Factor times variable.
-  struct Column {
-    std::int32_t variable;
-    double factor;
-  };
   struct EdgeVariables {
     std::int32_t phi = -1;
     std::int32_t slack = -1;
-    std::int32_t tail = 0, head = 0;  // the first of its coordinates in ends_
+    std::int32_t tail = 0, head = 0;  // the first of its coordinates in the program's ends
   };
   struct TransitionVariables {
     std::int32_t lambda = -1, w = -1;  // -1: not its own
     std::int32_t block = -1;
   };
-  struct SetRecord {
-    Csc At, Ft;
-    sy_csc at, ft;
-    sy_set record;
-  };
 
-  void FindBlocks(TermBlocks& blocks);
+  void FindBlocks();
+  [[nodiscard]] BlockKey KeyOf(std::size_t arc) const;
+  [[nodiscard]] BlockKey KeyOf(const Transition& t) const;
+  void WriteBlocks();
+  void PlaceBlocks();
   std::int32_t AddVariables(std::int32_t count);
   std::int32_t AddPoint(std::int32_t vertex);
   void AddEdgeVariables(std::size_t arc);
   void AddEnd(std::int32_t vertex, std::int32_t scale, std::span<const FixedCoordinate> fixed);
-  void AddTransitionVariables(std::size_t k);
   [[nodiscard]] const std::vector<FixedCoordinate>* FixedOf(std::size_t arc) const {
     return blocks_of_edge_[arc].fixed[graph_.head[arc] == graph_.target ? 1 : 0];
   }
   void WriteEdge(std::size_t arc);
-  void WriteTransition(std::size_t k);
+  void WriteTransition(const Transition& t);
   void WriteBlock(const TermBlock& block);
   void WriteRows(const TermBlock& block, std::int32_t own);
   void WriteCones(const TermBlock& block, std::int32_t own);
@@ -100,7 +104,6 @@ class GcsTranscription {
   void EachEntry(const PlacedRows& rows, std::size_t row, const TermBlock& block, std::int32_t own,
                  Take&& take) const;
   void WriteSquares(std::int32_t scale);
-  [[nodiscard]] std::int32_t BlockOfRow(const RowMatrix& matrix) const;
   void BeginRow(double lower, double upper);
   void DropRow();
   void WriteCoupling();
@@ -115,7 +118,6 @@ class GcsTranscription {
   void WritePoints(bool tails, Csc& matrix, sy_csc& view) const;
   [[nodiscard]] static Eigen::VectorXd ValueOf(std::span<const Column> end,
                                                const std::vector<double>& x);
-  const sy_set* RecordOf(const ConvexSet& set);
 
   /// phi times an arc's end point, by coordinate.
   [[nodiscard]] std::span<const Column> Tail(std::size_t arc) const;
@@ -130,28 +132,24 @@ class GcsTranscription {
   }
 
   const PrunedGraph& graph_;
-  TermBlocks own_blocks_;
+  std::unique_ptr<WrittenProgram> own_;  // where none was given
+  WrittenProgram& written_;
+  BlockProgram& p_;  // the program as it is written
+  Problem& problem_;
   std::vector<VertexBlocks> blocks_of_vertex_;
   std::vector<EdgeBlocks> blocks_of_edge_;  // by arc
   TransitionPlan plan_;
   std::vector<std::optional<Eigen::VectorXd>> point_;  // of each vertex whose set is one
   std::vector<EdgeVariables> edges_;
-  std::vector<Column> ends_;
   std::vector<TransitionVariables> transitions_;
 
-  ProblemData data_;
-  RowMatrix A_, F_;
   std::vector<Column> columns_;          // of the places of the block at hand
   std::vector<Column> squares_;          // of the block at hand, row after row
   std::vector<std::size_t> square_end_;  // of each row
 
-  Problem problem_;
-  std::int32_t block_ = -1, num_blocks_ = 0;
-  std::vector<std::int32_t> block_of_x_, block_of_row_, block_of_cone_;
+  std::int32_t block_ = -1;  // at hand
   std::vector<std::int32_t> flow_, scale_, arc_in_, arc_out_, dim_;
   Csc tail_point_, head_point_;
-  std::deque<SetRecord> records_;
-  std::unordered_map<const ConvexSet*, const sy_set*> record_of_;
   std::vector<const sy_set*> sets_;
   sy_blocks blocks_{};
   sy_paths paths_{};

@@ -61,7 +61,10 @@ void ForgetAnswer(sy_result& result) {
   result.bound = -kInfinity;
 }
 
-std::int32_t NumFunctions(const ProblemData& d) {
+std::size_t At(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+template <class P>  // sy_problem or ProblemData
+std::int32_t NumFunctions(const P& d) {
   return d.nlp != nullptr ? d.nlp->num_constraints : 0;
 }
 
@@ -137,12 +140,30 @@ void Facade::Load(const sy_problem& problem, std::uint64_t updates) {
   Forwarding([&] {
     const Turn turn(context_->turn);
     CheckProblem(problem);
-    problem_ = std::make_shared<Problem>(problem);
     spare_.reset();
     declared_ = updates;
-    Reload();
+    if (updates == 0 && PlanFor(problem, *context_->backend).empty()) {
+      Borrow(problem);
+    } else {
+      problem_ = std::make_shared<Problem>(problem);
+      Reload();
+    }
     in_step_ = true;
   });
+}
+
+// The caller keeps in place what the record points to until the next load or update; what no update
+// is announced for seldom gets one. The record may be gone after this call.
+void Facade::Borrow(const sy_problem& problem) {
+  borrowed_ = problem;
+  InBackend([&] { instance_->Load(borrowed_, 0); });
+  problem_.reset();
+  sent_.reset();
+  held_.reset();
+  plan_ = {};
+  chain_ = std::make_unique<BridgeChain>();
+  passed_bounds_ = false;
+  ++loads_;
 }
 
 template <class C>
@@ -208,6 +229,7 @@ void Facade::Update(const sy_update& update) {
     const Turn turn(context_->turn);
     NeedInStep();
     CheckSingleBounds(update);
+    if (problem_ == nullptr) problem_ = std::make_shared<Problem>(borrowed_);
     std::shared_ptr<Problem> next = Next(update);
     in_step_ = next != problem_;
     const BridgePlan plan = PlanFor(next->view(), *context_->backend);
@@ -266,12 +288,12 @@ void Facade::WarmStart(const sy_start& start) {
     const Turn turn(context_->turn);
     NeedInStep();
     if (chain_->empty()) return InBackend([&] { instance_->WarmStart(start); });
-    const ProblemData& d = problem_->data();
+    const sy_problem& d = view();
     const auto copy = [](const double* from, std::int32_t count) {
       return from == nullptr ? std::vector<double>() : std::vector<double>(from, from + count);
     };
     Vectors v{copy(start.x, d.num_vars), copy(start.x_dual, d.num_vars),
-              copy(start.row_dual, d.num_rows()), copy(start.cone_dual, d.num_cone_rows()),
+              copy(start.row_dual, d.num_rows), copy(start.cone_dual, d.num_cone_rows),
               copy(start.nlp_dual, NumFunctions(d))};
     chain_->Forward(v);
     const auto data = [](const std::vector<double>& from) {
@@ -327,15 +349,15 @@ void Facade::Recover(sy_result& found, const Vectors& mapped, sy_result& result)
   if (chain_->empty()) return;
   Vectors v = mapped;
   chain_->Back(v);
-  const ProblemData& d = problem_->data();
+  const sy_problem& d = view();
   CopyOut(v.x, wanted.x, d.num_vars);
   CopyOut(v.x_dual, wanted.x_dual, d.num_vars);
-  CopyOut(v.row_dual, wanted.row_dual, d.num_rows());
-  CopyOut(v.cone_dual, wanted.cone_dual, d.num_cone_rows());
+  CopyOut(v.row_dual, wanted.row_dual, d.num_rows);
+  CopyOut(v.cone_dual, wanted.cone_dual, d.num_cone_rows);
   CopyOut(v.nlp_dual, wanted.nlp_dual, NumFunctions(d));
-  if (wanted.x_basis != nullptr) std::memset(wanted.x_basis, SY_BASIS_UNKNOWN, d.q.size());
+  if (wanted.x_basis != nullptr) std::memset(wanted.x_basis, SY_BASIS_UNKNOWN, At(d.num_vars));
   if (wanted.row_basis != nullptr) {
-    std::memset(wanted.row_basis, SY_BASIS_UNKNOWN, d.row_lower.size());
+    std::memset(wanted.row_basis, SY_BASIS_UNKNOWN, At(d.num_rows));
   }
   result.x = wanted.x;
   result.x_dual = wanted.x_dual;
@@ -358,7 +380,7 @@ void Facade::CheckAnswer(sy_result& result) const {
   };
   result.primal = known(result.primal);
   result.dual = known(result.dual);
-  const ProblemData& d = problem_->data();
+  const sy_problem& d = view();
   const auto check = [&](const char* name, const double* values, std::int32_t count) {
     for (std::int32_t i = 0; values != nullptr && i < count; ++i) {
       if (std::isfinite(values[i])) continue;
@@ -368,8 +390,8 @@ void Facade::CheckAnswer(sy_result& result) const {
   if (result.primal != SY_NO_POINT) check("x", result.x, d.num_vars);
   if (result.dual != SY_NO_POINT) {
     check("x_dual", result.x_dual, d.num_vars);
-    check("row_dual", result.row_dual, d.num_rows());
-    check("cone_dual", result.cone_dual, d.num_cone_rows());
+    check("row_dual", result.row_dual, d.num_rows);
+    check("cone_dual", result.cone_dual, d.num_cone_rows);
     check("nlp_dual", result.nlp_dual, NumFunctions(d));
   }
 }

@@ -24,7 +24,8 @@ struct FacadeContext {
 
 /// A sy_solver over a backend that takes every section that bridges reach, and every update.
 ///
-/// It owns one copy of the problem. An update is applied to the copy, bridges run again, and what
+/// It owns one copy of the problem, or borrows it where no update is announced and no bridge stands
+/// between. An update is applied to the copy, bridges run again, and what
 /// differs is sent: as an update where the backend takes that kind, as a new load where it does
 /// not. Bounds of variables pass straight through bridges that keep them as bounds.
 class Facade {
@@ -53,6 +54,7 @@ class Facade {
   void InBackend(C&& call);
   [[nodiscard]] const sy_solver& facts() const { return context_->backend->facts; }
   std::shared_ptr<Problem> Next(const sy_update& update);
+  void Borrow(const sy_problem& problem);
   void Reload();
   void NeedInStep() const;
   void SendDifference(const sy_update& update, const BridgePlan& plan);
@@ -63,7 +65,12 @@ class Facade {
 
   const FacadeContext* context_;
   std::unique_ptr<Instance> instance_;
-  std::shared_ptr<Problem> problem_;
+  [[nodiscard]] const sy_problem& view() const {
+    return problem_ != nullptr ? problem_->view() : borrowed_;
+  }
+
+  std::shared_ptr<Problem> problem_;  // nullptr: borrowed_
+  sy_problem borrowed_{};
   std::shared_ptr<Problem> sent_;   // what the backend was given, where no bridge stands between
   std::shared_ptr<Problem> spare_;  // the one before problem_, where its matrices are the same
   std::unique_ptr<BridgeChain> chain_;

@@ -1,5 +1,4 @@
-// switchyard/problem.hpp - a sy_problem that owns what it points to, and the sparse products that
-// host, solvers and plugins need over one. Knows abi.h alone.
+// switchyard/problem.hpp - an owning sy_problem, and its sparse products. Knows abi.h alone.
 #pragma once
 
 #include <algorithm>
@@ -42,18 +41,20 @@ struct Csc {
   }
 };
 
-/// The transpose, rows ascending, in time linear in entries and dimensions.
-inline Csc Transpose(const sy_csc& a) {
-  Csc t(a.cols, a.rows);
-  const std::size_t nonzeros = static_cast<std::size_t>(a.start[a.cols]);
-  t.row.resize(nonzeros);
-  if (a.value != nullptr) t.value.resize(nonzeros);
-  for (std::size_t k = 0; k < nonzeros; ++k) ++t.start[static_cast<std::size_t>(a.row[k]) + 1];
+/// The transpose, rows ascending, in time linear in entries and dimensions, in the memory of t.
+/// Where column i is written next stands in start[i + 1], its end when it is full.
+inline Csc Transpose(const sy_csc& a, Csc t = {}) {
+  t.rows = a.cols;
+  t.cols = a.rows;
+  t.row.resize(static_cast<std::size_t>(a.start[a.cols]));
+  t.value.resize(a.value != nullptr ? t.row.size() : 0);
+  t.start.assign(static_cast<std::size_t>(a.rows) + 2, 0);
+  for (std::size_t k = 0; k < t.row.size(); ++k) ++t.start[static_cast<std::size_t>(a.row[k]) + 2];
   std::partial_sum(t.start.begin(), t.start.end(), t.start.begin());
-  std::vector<std::int32_t> next(t.start.begin(), t.start.end() - 1);
+  t.start.pop_back();
   for (std::int32_t j = 0; j < a.cols; ++j) {
     for (std::int32_t k = a.start[j]; k < a.start[j + 1]; ++k) {
-      const auto to = static_cast<std::size_t>(next[static_cast<std::size_t>(a.row[k])]++);
+      const auto to = static_cast<std::size_t>(t.start[static_cast<std::size_t>(a.row[k]) + 1]++);
       t.row[to] = j;
       if (a.value != nullptr) t.value[to] = a.value[k];
     }
@@ -159,8 +160,7 @@ std::vector<T> Keep(const std::vector<T>& v, const std::vector<std::uint8_t>& ke
   return kept;
 }
 
-/// What a sy_problem says, by value. A section is absent where its vectors are empty; nlp and hints
-/// are borrowed, as the ABI has it.
+/// A sy_problem by value. A section without entries is absent; nlp and hints are borrowed.
 struct ProblemData {
   std::int32_t num_vars = 0;
   std::uint32_t flags = 0;

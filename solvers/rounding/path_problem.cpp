@@ -93,16 +93,21 @@ std::vector<std::int32_t> ArcOfScaledBlocks(const sy_paths& paths, std::int32_t 
   return arc;
 }
 
-/// For each row, whether all of its terms are nonnegative.
-std::vector<std::uint8_t> RowsOfNonnegativeTerms(const sy_problem& p) {
-  std::vector<std::uint8_t> nonnegative(At(p.num_rows), 1);
-  for (std::int32_t j = 0; p.A != nullptr && j < p.num_vars; ++j) {
+/// For each row, whether it is of nonnegative terms and has a positive upper side.
+std::vector<std::uint8_t> RowsThatBound(const sy_problem& p) {
+  std::vector<std::uint8_t> bounds(At(p.num_rows), 0);
+  if (p.A == nullptr || p.row_upper == nullptr) return bounds;
+  for (std::size_t i = 0; i < bounds.size(); ++i) {
+    bounds[i] = p.row_upper[i] > 0 && p.row_upper[i] < kInfinity ? 1 : 0;
+  }
+  for (std::int32_t j = 0; j < p.num_vars; ++j) {
     const bool column = LowerOf(p, j) >= 0;
     for (std::int32_t k = p.A->start[j]; k < p.A->start[j + 1]; ++k) {
-      if (!column || p.A->value[k] < 0) nonnegative[At(p.A->row[k])] = 0;
+      std::uint8_t& row = bounds[At(p.A->row[k])];
+      if (row != 0 && (!column || p.A->value[k] < 0)) row = 0;
     }
   }
-  return nonnegative;
+  return bounds;
 }
 
 }  // namespace
@@ -195,17 +200,17 @@ void PathProblem::Relax() {
   for (std::int32_t b = 0; b < blocks_.num_blocks; ++b) {
     if (paths_.scale[b] >= 0) scales[At(paths_.scale[b])] = 1;
   }
-  const std::vector<std::uint8_t> nonnegative = RowsOfNonnegativeTerms(p);
+  const std::vector<std::uint8_t> bounding = RowsThatBound(p);
   for (std::int32_t j = 0; j < p.num_vars; ++j) {
     const std::int32_t block = blocks_.x[j];
     const bool implied = block >= 0 && paths_.scale[block] >= 0 && scales[At(j)] == 0;
     r.x_lower[At(j)] = implied ? -kInfinity : LowerOf(p, j);
     r.x_upper[At(j)] = implied ? kInfinity : UpperOf(p, j);
-    if (scales[At(j)] == 0 || p.A == nullptr || p.row_upper == nullptr) continue;
+    if (scales[At(j)] == 0 || p.A == nullptr) continue;
     if (!(LowerOf(p, j) < UpperOf(p, j))) continue;
     for (std::int32_t k = p.A->start[j]; k < p.A->start[j + 1]; ++k) {
       const std::int32_t i = p.A->row[k];
-      const bool bounds = nonnegative[At(i)] != 0 && p.A->value[k] > 0;
+      const bool bounds = bounding[At(i)] != 0 && p.A->value[k] > 0;
       if (bounds && p.row_upper[i] <= p.A->value[k] * UpperOf(p, j)) r.x_upper[At(j)] = kInfinity;
     }
   }
