@@ -31,8 +31,8 @@ CORE_KNOWS = {
 }
 for above in ("solve", "sets", "gcs", "trajectory"):
     CORE_KNOWS[above] = set(CORE_KNOWS)
-# Files hold programs and graphs, and no answers.
-CORE_KNOWS["io"] = {"linalg", "functions", "symbolic", "model", "sets", "gcs"}
+# Files hold programs, graphs and trajectories, and no answers.
+CORE_KNOWS["io"] = {"linalg", "functions", "symbolic", "model", "sets", "gcs", "trajectory"}
 
 # Inside solvers, likewise.
 SOLVERS_KNOW = {

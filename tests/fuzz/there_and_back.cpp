@@ -10,6 +10,7 @@
 
 #include "switchyard/io/graph.hpp"
 #include "switchyard/io/read.hpp"
+#include "switchyard/io/trajectory.hpp"
 #include "switchyard/io/write.hpp"
 #include "tests/io/same_program.hpp"
 
@@ -51,6 +52,29 @@ void ReadGraphThereAndBack(const std::uint8_t* data, std::size_t size) {
   const std::string written = GraphText(problem);
   if (GraphText(ReadGraphText(written, "written")) != written) {
     Fail("read, written, read: another graph\n" + written, text);
+  }
+}
+
+void ReadTrajectoryThereAndBack(const std::uint8_t* data, std::size_t size) {
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  const bool json = text.starts_with('{');
+  std::unique_ptr<Trajectory<double>> trajectory;
+  try {
+    trajectory =
+        json ? ReadTrajectoryText(text, "file") : ReadTrajectoryTableText(text, "file").Clone();
+  } catch (const FileError& error) {
+    if (!IsPlaceOf(error, text)) Fail(std::string("no place of the file: ") + error.what(), text);
+    return;
+  }
+  const std::string written = TrajectoryText(*trajectory);
+  if (TrajectoryText(*ReadTrajectoryText(written, "written")) != written) {
+    Fail("read, written, read: another trajectory\n" + written, text);
+  }
+  if (json) return;
+  const auto& hold = dynamic_cast<const PiecewisePolynomial<double>&>(*trajectory);
+  for (int i = 0; i < hold.get_number_of_segments(); ++i) {
+    const Eigen::VectorXd sample = hold.value(hold.start_time(i));
+    if (sample != hold.coefficients(i).col(0)) Fail("a row is not what is held there", text);
   }
 }
 

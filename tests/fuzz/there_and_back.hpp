@@ -16,4 +16,7 @@ void ReadThereAndBack(const std::uint8_t* data, std::size_t size, FileFormat for
 /// The same of gcs/1.
 void ReadGraphThereAndBack(const std::uint8_t* data, std::size_t size);
 
+/// The same of trajectory/1, and of tables of trajectories where the text does not start with "{".
+void ReadTrajectoryThereAndBack(const std::uint8_t* data, std::size_t size);
+
 }  // namespace switchyard::fuzz
