@@ -39,6 +39,15 @@ def _run(command, limit):
     return out, None
 
 
+def _built_and_solved(command, limit):
+    """What a process answers that says its seconds of `build` and `solve`."""
+    out, failure = _run(command, limit)
+    if failure:
+        return {"status": failure}
+    answer = json.loads(out)
+    return answer | {"seconds": answer["build"] + answer["solve"]}
+
+
 class Drake:
     """Drake in `folder`, an environment that is made where there is none."""
 
@@ -60,14 +69,13 @@ class Drake:
         return subprocess.run([self._python, "-c", asked], capture_output=True, text=True,
                               check=False).stdout.strip() or None
 
-    def solve(self, file, paths, limit, preprocessing=False):
+    def solve(self, file, paths, limit, preprocessing=False, script="solve_with_drake.py"):
         """Seconds are those from the beginning of the build of the graph to the answer."""
-        out, failure = _run([self._python, Path(__file__).with_name("solve_with_drake.py"), file,
-                             str(paths), str(int(preprocessing)), str(self._threads)], limit)
-        if failure:
-            return {"status": failure}
-        answer = json.loads(out)
-        return answer | {"seconds": answer["build"] + answer["solve"]}
+        return _built_and_solved([self._python, "-B", Path(__file__).with_name(script), file,
+                                  str(paths), str(int(preprocessing)), str(self._threads)], limit)
+
+    def solve_trajectory(self, file, paths, limit, preprocessing=False):
+        return self.solve(file, paths, limit, preprocessing, "solve_trajectory_with_drake.py")
 
 
 class Switchyard:
@@ -92,3 +100,14 @@ class Switchyard:
             if name in result:
                 answer[name] = result[name]
         return answer
+
+
+class Trajectories:
+    """Switchyard's trajectories, by the program of runner/trajectories.cpp."""
+
+    def __init__(self, program, threads):
+        self._program = program
+        self._threads = threads
+
+    def solve_trajectory(self, file, paths, limit):
+        return _built_and_solved([self._program, file, str(paths), str(self._threads)], limit)
