@@ -68,7 +68,9 @@ void BlockProgram::Append(const BlockProgram& from, std::int32_t first, std::int
   AppendPart(from.cones, begin.cone, end.cone, cones);
   AppendShifted(from.block_of_cone, begin.cone, end.cone, blocks, block_of_cone);
   AppendPart(from.ends, begin.end, end.end, ends);
-  for (std::size_t k = At(here.end); k < ends.size(); ++k) ends[k].variable += here.x - begin.x;
+  for (std::size_t k = At(here.end); k < ends.size(); ++k) {
+    if (ends[k].variable >= 0) ends[k].variable += here.x - begin.x;
+  }
 }
 
 void BlockProgram::Clear() {

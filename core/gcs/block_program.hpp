@@ -10,7 +10,7 @@
 
 namespace switchyard {
 
-/// Factor times variable.
+/// Factor times variable; -1: of none.
 struct Column {
   std::int32_t variable;
   double factor;

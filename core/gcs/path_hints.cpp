@@ -1,4 +1,6 @@
 // What a transcription says of its own structure.
+#include <algorithm>
+
 #include "core/gcs/transcription.hpp"
 
 namespace switchyard {
@@ -8,13 +10,33 @@ std::size_t At(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
-/// A column for each coordinate of each arc's tail, or head.
+std::vector<Column> GcsTranscription::PartsOf(std::size_t arc, std::int32_t coordinate) const {
+  std::vector<Column> parts;
+  if (idle_->At(graph_.head[arc], At(coordinate))) return parts;
+  for (const std::int32_t k : plan_.From(arc)) {
+    parts.push_back(CopyOf(plan_.all()[At(k)], At(k), coordinate));
+  }
+  std::sort(parts.begin(), parts.end(),
+            [](const Column& a, const Column& b) { return a.variable < b.variable; });
+  return parts;
+}
+
+/// A column for each coordinate of each arc's tail, or head; empty where it is idle.
 void GcsTranscription::WritePoints(bool tails, Csc& matrix, sy_csc& view) const {
   matrix = Csc(problem_.data().num_vars, 0);
+  const auto add = [&](const Column& column) {
+    matrix.row.push_back(column.variable);
+    matrix.value.push_back(column.factor);
+  };
   for (std::size_t a = 0; a < edges_.size(); ++a) {
+    std::int32_t coordinate = 0;
     for (const Column& column : tails ? Tail(a) : Head(a)) {
-      matrix.row.push_back(column.variable);
-      matrix.value.push_back(column.factor);
+      if (column.variable >= 0) {
+        add(column);
+      } else {
+        for (const Column& part : PartsOf(a, coordinate)) add(part);
+      }
+      ++coordinate;
       matrix.start.push_back(static_cast<std::int32_t>(matrix.row.size()));
     }
   }
@@ -27,14 +49,31 @@ Eigen::VectorXd GcsTranscription::TailOf(std::size_t arc, const std::vector<doub
 }
 
 Eigen::VectorXd GcsTranscription::HeadOf(std::size_t arc, const std::vector<double>& x) const {
-  return ValueOf(Head(arc), x);
+  const std::int32_t v = graph_.head[arc];
+  Eigen::VectorXd head = ValueOf(Head(arc), x);
+  const std::vector<std::uint8_t>& missing = MissingAt(arc);
+  if (missing.empty()) return head;
+  double flow = 0;
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(head.size());
+  for (const std::int32_t a : out_->Of(v)) {
+    flow += x[At(edges_[At(a)].phi)];
+    sum += TailOf(At(a), x);
+  }
+  const double share = flow > 0 ? x[At(edges_[arc].phi)] / flow : 0;
+  for (std::int32_t i = 0; i < static_cast<std::int32_t>(head.size()); ++i) {
+    if (missing[At(i)] == 0) continue;
+    head[i] = idle_->At(v, At(i)) ? share * sum[i] : ValueOf(PartsOf(arc, i), x).sum();
+  }
+  return head;
 }
 
 Eigen::VectorXd GcsTranscription::ValueOf(std::span<const Column> end,
                                           const std::vector<double>& x) {
   Eigen::VectorXd value(static_cast<Eigen::Index>(end.size()));
   for (std::size_t i = 0; i < end.size(); ++i) {
-    value[static_cast<Eigen::Index>(i)] = end[i].factor * x[At(end[i].variable)];
+    const Column& column = end[i];
+    value[static_cast<Eigen::Index>(i)] =
+        column.variable < 0 ? 0 : column.factor * x[At(column.variable)];
   }
   return value;
 }

@@ -1,6 +1,7 @@
 #include "core/gcs/term_block.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 #include "core/gcs/fixed_ends.hpp"
 #include "switchyard/boxes.hpp"
@@ -33,6 +34,77 @@ void BoxOwn(const ScaledSet& set, TermBlock& block) {
     block.own_lower[At(k)] = std::min(0.0, boxes.lower[At(set.dim + k)]);
     block.own_upper[At(k)] = std::max(0.0, boxes.upper[At(set.dim + k)]);
   }
+}
+
+/// Numbers the groups of coordinates that stand together in a row or in a cone.
+std::vector<std::int32_t> GroupsOf(const TermBlock& set) {
+  std::vector<std::int32_t> parent(At(set.num_places));
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](std::int32_t i) {
+    while (parent[At(i)] != i) i = parent[At(i)] = parent[At(parent[At(i)])];
+    return i;
+  };
+  const auto join = [&](const PlacedRows& rows, std::int32_t begin, std::int32_t end) {
+    std::int32_t first = 0;  // place 0 is the scale, which is in all of them
+    for (auto k = At(rows.start[At(begin)]); k < At(rows.start[At(end)]); ++k) {
+      const std::int32_t place = rows.place[k];
+      if (place == 0 || place >= set.num_places) continue;
+      if (first == 0) first = place;
+      parent[At(root(place))] = root(first);
+    }
+  };
+  for (std::int32_t i = 0; i < set.rows.count(); ++i) join(set.rows, i, i + 1);
+  std::int32_t row = 0;
+  for (const sy_cone& cone : set.cones) {
+    join(set.cone_rows, row, row + cone.dim);
+    row += cone.dim;
+  }
+  std::vector<std::int32_t> group, number(parent.size(), -1);
+  std::int32_t count = 0;
+  for (std::int32_t i = 1; i < set.num_places; ++i) {
+    std::int32_t& n = number[At(root(i))];
+    if (n < 0) n = count++;
+    group.push_back(n);
+  }
+  return group;
+}
+
+void AppendRow(const PlacedRows& from, std::int32_t row, PlacedRows& to) {
+  for (auto k = At(from.start[At(row)]); k < At(from.start[At(row + 1)]); ++k) {
+    to.place.push_back(from.place[k]);
+    to.value.push_back(from.value[k]);
+  }
+  to.start.push_back(static_cast<std::int32_t>(to.place.size()));
+}
+
+/// Rows and cones of the scale alone stay with those that are kept.
+SplitBlock SplitBy(const TermBlock& set, const std::vector<std::uint8_t>& idle) {
+  SplitBlock split;
+  split.kept.num_places = split.idle.num_places = set.num_places;
+  const auto part_of = [&](const PlacedRows& rows, std::int32_t begin,
+                           std::int32_t end) -> TermBlock& {
+    for (auto k = At(rows.start[At(begin)]); k < At(rows.start[At(end)]); ++k) {
+      if (rows.place[k] > 0) return idle[At(rows.place[k] - 1)] != 0 ? split.idle : split.kept;
+    }
+    return split.kept;
+  };
+  for (std::int32_t i = 0; i < set.rows.count(); ++i) {
+    TermBlock& part = part_of(set.rows, i, i + 1);
+    AppendRow(set.rows, i, part.rows);
+    part.lower.push_back(set.lower[At(i)]);
+    part.upper.push_back(set.upper[At(i)]);
+  }
+  std::int32_t row = 0;
+  for (const sy_cone& cone : set.cones) {
+    TermBlock& part = part_of(set.cone_rows, row, row + cone.dim);
+    for (const std::int32_t end = row + cone.dim; row < end; ++row) {
+      AppendRow(set.cone_rows, row, part.cone_rows);
+    }
+    part.cones.push_back(cone);
+  }
+  split.kept.Finish();
+  split.idle.Finish();
+  return split;
 }
 
 }  // namespace
@@ -73,16 +145,26 @@ void TermBlock::Add(const Perspective& term, const std::vector<std::int32_t>& pl
   }
 }
 
+void TermBlock::Finish() {
+  uses.assign(At(num_places + num_own), 0);
+  for (const PlacedRows* part : {&rows, &cone_rows, &squares}) {
+    for (const std::int32_t place : part->place) uses[At(place)] = 1;
+  }
+  for (std::size_t j = 0; j < cost.size(); ++j) {
+    if (cost[j] != 0) uses[j] = 1;
+  }
+}
+
 std::size_t TermBlocks::Hash::operator()(const Key& key) const {
   std::uint64_t hash = kBegin;
   for (const std::uint64_t part : key) Mix(part, hash);
   return hash;
 }
 
-const TermBlock& TermBlocks::Membership(const Vertex& v) {
+const TermBlocks::OfSet& TermBlocks::Membership(const Vertex& v) {
   const auto [place, fresh] = of_set_.try_emplace(&v.set());
   TermBlock& block = place->second.block;
-  if (!fresh) return block;
+  if (!fresh) return place->second;
   place->second.set = v.shared_set();
   const ScaledSet& scaled = v.set().scaled();
   std::vector<std::int32_t> places;
@@ -90,7 +172,15 @@ const TermBlock& TermBlocks::Membership(const Vertex& v) {
   block.num_places = 1 + scaled.dim;
   block.Add({scaled, {}, {}}, places);
   BoxOwn(scaled, block);
-  return block;
+  block.Finish();
+  place->second.group = GroupsOf(block);
+  return place->second;
+}
+
+const SplitBlock& TermBlocks::Split(const Vertex& v, const std::vector<std::uint8_t>& idle) {
+  const auto [place, fresh] = split_.try_emplace({&v.set(), idle});
+  if (fresh) place->second = SplitBy(Membership(v).block, idle);
+  return place->second;
 }
 
 // The key says all that the block follows from: evaluators, at their version, and places.
@@ -135,6 +225,7 @@ const TermBlock& TermBlocks::Find(const Owner& owner, bool costs, std::int32_t n
   };
   if (costs) add(owner.costs());
   add(owner.constraints());
+  block->Finish();
   return *of_terms_.emplace(key_, std::move(block)).first->second;
 }
 
@@ -190,7 +281,10 @@ const VertexBlocks& TermBlocks::Of(const Vertex& v) {
   if (blocks.stamp == stamp) return blocks;
   const SetBox& box = v.set().bounding_box();
   const bool open = !box.empty && !box.is_finite() && !v.constraints().empty();
-  return blocks = {&Membership(v), &Terms(v, true), open ? &Terms(v, false) : nullptr, stamp};
+  const OfSet& of_set = Membership(v);
+  const bool grouped = box.is_finite() && of_set.block.num_own == 0;
+  return blocks = {&of_set.block, &Terms(v, true), open ? &Terms(v, false) : nullptr,
+                   grouped ? &of_set.group : nullptr, stamp};
 }
 
 const EdgeBlocks& TermBlocks::Of(const Edge& e, bool ends) {

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "core/gcs/perspective.hpp"
@@ -43,9 +45,17 @@ struct TermBlock {
   PlacedRows squares;
   std::vector<double> cost;                  // by place, own ones too; or empty
   std::vector<double> own_lower, own_upper;  // proven at scales in [0, 1]
+  std::vector<std::uint8_t> uses;            // by place: does any of these hold it?
 
   /// Places the perspective's x at `places`, its t at 0, its w behind all others.
   void Add(const Perspective& term, const std::vector<std::int32_t>& places);
+  /// All is added.
+  void Finish();
+};
+
+/// A set's cone in two: over some coordinates, and over the others.
+struct SplitBlock {
+  TermBlock kept, idle;
 };
 
 /// What a vertex asks for: places t, x.
@@ -54,6 +64,9 @@ struct VertexBlocks {
   const TermBlock* terms = nullptr;  // costs and constraints
   /// The latter alone, where without them the set is not known to be bounded; else null.
   const TermBlock* constraints = nullptr;
+  /// Of a set without variables of its own that is known to be bounded, by coordinate: those of one
+  /// number, from 0 on, are not told apart by its rows and cones. Else null.
+  const std::vector<std::int32_t>* group = nullptr;
   std::uint64_t stamp = 0;  // of all that these follow from
 };
 
@@ -82,6 +95,8 @@ class TermBlocks {
   /// Where its vertices' are known.
   const EdgeBlocks& Of(const Edge& e, bool ends, std::uint64_t stamp_of_u,
                        std::uint64_t stamp_of_v);
+  /// The cone of a vertex's set by coordinates that are idle, of whole groups.
+  const SplitBlock& Split(const Vertex& v, const std::vector<std::uint8_t>& idle);
 
  private:
   using Key = std::vector<std::uint64_t>;
@@ -92,9 +107,10 @@ class TermBlocks {
   struct OfSet {
     std::shared_ptr<const ConvexSet> set;
     TermBlock block;
+    std::vector<std::int32_t> group;
   };
 
-  const TermBlock& Membership(const Vertex& v);
+  const OfSet& Membership(const Vertex& v);
   const TermBlock& Terms(const Vertex& v, bool costs);
   const TermBlock& Terms(const Edge& e);
   const std::vector<FixedCoordinate>& Fixed(const Edge& e, bool ends);
@@ -112,6 +128,7 @@ class TermBlocks {
   std::unordered_map<const ConvexSet*, OfSet> of_set_;
   std::unordered_map<Key, std::unique_ptr<TermBlock>, Hash> of_terms_;
   std::unordered_map<Key, std::vector<FixedCoordinate>, Hash> fixed_;
+  std::map<std::pair<const ConvexSet*, std::vector<std::uint8_t>>, SplitBlock> split_;
   Key key_;                              // of the owner at hand
   std::vector<VertexBlocks> of_vertex_;  // by id
   std::vector<EdgeBlocks> of_edge_;

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace switchyard {
 namespace {
 
 std::size_t At(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+constexpr Column kNone = {-1, 0};  // of an idle coordinate
 
 }  // namespace
 
@@ -44,6 +47,26 @@ void GcsTranscription::FindBlocks() {
                                         blocks_of_vertex_[At(graph_.tail[a])].stamp,
                                         blocks_of_vertex_[At(graph_.head[a])].stamp));
   }
+  idle_.emplace(graph_, plan_, blocks_of_vertex_, blocks_of_edge_);
+}
+
+const TermBlock& GcsTranscription::KeptSet(std::int32_t vertex) {
+  const std::vector<std::uint8_t>& idle = idle_->At(vertex);
+  if (idle.empty()) return *blocks_of_vertex_[At(vertex)].set;
+  return written_.blocks.Split(*graph_.vertices[At(vertex)], idle).kept;
+}
+
+const std::vector<std::uint8_t>& GcsTranscription::MissingAt(std::size_t arc) const {
+  const std::int32_t v = graph_.head[arc];
+  return plan_.At(v) && !plan_.OwnsHead(arc) ? idle_->Unread(v) : idle_->At(v);
+}
+
+std::uint64_t GcsTranscription::IdleStamp(std::int32_t vertex) const {
+  std::uint64_t stamp = 0;
+  for (const auto* mask : {&idle_->At(vertex), &idle_->Unread(vertex)}) {
+    for (const std::uint8_t bit : *mask) stamp = 0x9e3779b97f4a7c15U * (stamp + bit + 1);
+  }
+  return stamp;
 }
 
 BlockKey GcsTranscription::KeyOf(std::size_t arc) const {
@@ -54,12 +77,14 @@ BlockKey GcsTranscription::KeyOf(std::size_t arc) const {
                          v == graph_.target, plan_.At(v)}) {
     shape = 2 * shape + (bit ? 1 : 0);
   }
-  return {2 * static_cast<std::uint64_t>(edge.id().value), blocks_of_edge_[arc].stamp, shape};
+  const std::uint64_t idle = 31 * IdleStamp(graph_.tail[arc]) + IdleStamp(v);
+  return {2 * static_cast<std::uint64_t>(edge.id().value), blocks_of_edge_[arc].stamp ^ idle,
+          shape};
 }
 
 BlockKey GcsTranscription::KeyOf(const Transition& t) const {
   const auto id = static_cast<std::uint64_t>(graph_.vertices[At(t.vertex)]->id().value);
-  return {2 * id + 1, blocks_of_vertex_[At(t.vertex)].stamp, 0};
+  return {2 * id + 1, blocks_of_vertex_[At(t.vertex)].stamp ^ IdleStamp(t.vertex), 0};
 }
 
 // Those of the program before are copied where they are the same.
@@ -118,19 +143,24 @@ std::int32_t GcsTranscription::AddVariables(std::int32_t count) {
   return first;
 }
 
-std::int32_t GcsTranscription::AddPoint(std::int32_t vertex) {
-  const ConvexSet& set = graph_.vertices[At(vertex)]->set();
-  const SetBox& box = set.bounding_box();
-  const std::int32_t first = AddVariables(set.ambient_dimension());
-  for (int i = 0; i < set.ambient_dimension(); ++i) {
-    p_.x_lower[At(first + i)] = std::min(0.0, box.lower[i]);
-    p_.x_upper[At(first + i)] = std::max(0.0, box.upper[i]);
+/// Of a transition: columns behind the scale's, a variable for each coordinate that is not idle.
+void GcsTranscription::AddPoint(std::int32_t vertex) {
+  const SetBox& box = graph_.vertices[At(vertex)]->set().bounding_box();
+  for (std::int32_t i = 0; i < DimensionAt(vertex); ++i) {
+    if (idle_->At(vertex, At(i))) {
+      columns_.push_back(kNone);
+      continue;
+    }
+    const std::int32_t j = AddVariables(1);
+    p_.x_lower[At(j)] = std::min(0.0, box.lower[i]);
+    p_.x_upper[At(j)] = std::max(0.0, box.upper[i]);
+    columns_.push_back({j, 1});
   }
-  return first;
 }
 
 void GcsTranscription::AddEnd(std::int32_t vertex, std::int32_t scale,
-                              std::span<const FixedCoordinate> fixed) {
+                              std::span<const FixedCoordinate> fixed,
+                              const std::vector<std::uint8_t>& idle) {
   const std::int32_t n = DimensionAt(vertex);
   if (PointAt(vertex)) {
     for (std::int32_t i = 0; i < n; ++i) p_.ends.push_back({scale, (*PointAt(vertex))[i]});
@@ -139,8 +169,14 @@ void GcsTranscription::AddEnd(std::int32_t vertex, std::int32_t scale,
   const SetBox& box = graph_.vertices[At(vertex)]->set().bounding_box();
   auto next = fixed.begin();
   for (std::int32_t i = 0; i < n; ++i) {
-    if (next != fixed.end() && next->place == i) {
-      p_.ends.push_back({scale, next++->value});
+    const bool is_fixed = next != fixed.end() && next->place == i;
+    if (is_fixed) ++next;
+    if (!idle.empty() && idle[At(i)] != 0) {
+      p_.ends.push_back(kNone);
+      continue;
+    }
+    if (is_fixed) {
+      p_.ends.push_back({scale, std::prev(next)->value});
       continue;
     }
     const std::int32_t j = AddVariables(1);
@@ -164,9 +200,9 @@ void GcsTranscription::AddEdgeVariables(std::size_t arc) {
   std::vector<FixedCoordinate> at_v(of_v, fixed.end());
   for (FixedCoordinate& c : at_v) c.place -= of_u;
   at.tail = static_cast<std::int32_t>(p_.ends.size());
-  AddEnd(graph_.tail[arc], at.phi, {fixed.begin(), of_v});
+  AddEnd(graph_.tail[arc], at.phi, {fixed.begin(), of_v}, {});
   at.head = static_cast<std::int32_t>(p_.ends.size());
-  AddEnd(graph_.head[arc], at.phi, at_v);
+  AddEnd(graph_.head[arc], at.phi, at_v, MissingAt(arc));
   if (edge.slacks().size() == 0) return;
   at.slack = AddVariables(static_cast<std::int32_t>(edge.slacks().size()));
   p_.places.back().slack = at.slack - at.phi;
@@ -188,7 +224,11 @@ Column GcsTranscription::CopyOf(const Transition& t, std::size_t k, std::int32_t
       return Head(At(t.in))[At(i)];
     default:
       if (PointAt(t.vertex)) return {transitions_[k].lambda, (*PointAt(t.vertex))[i]};
-      return {transitions_[k].w + i, 1};
+      std::int32_t place = i;
+      for (std::int32_t before = 0; before < i; ++before) {
+        if (idle_->At(t.vertex, At(before))) --place;
+      }
+      return {transitions_[k].w + place, 1};
   }
 }
 
@@ -218,12 +258,16 @@ void GcsTranscription::WriteEdge(std::size_t arc) {
     place(Tail(arc));
     if (!PointAt(u)) WriteBlock(*blocks_of_vertex_[At(u)].set);
     WriteBlock(*blocks_of_vertex_[At(u)].terms);
+  } else if (!idle_->At(u).empty()) {
+    columns_.assign(1, {at.phi, 1});
+    place(Tail(arc));
+    WriteBlock(written_.blocks.Split(*graph_.vertices[At(u)], idle_->At(u)).idle);
   }
   if (plan_.OwnsHead(arc)) {
     columns_.assign(1, {at.phi, 1});
     place(Head(arc));
     const VertexBlocks& of = blocks_of_vertex_[At(v)];
-    if (!PointAt(v)) WriteBlock(*of.set);
+    if (!PointAt(v)) WriteBlock(KeptSet(v));
     if (v == graph_.target || plan_.At(v)) {
       WriteBlock(*of.terms);
     } else if (of.constraints != nullptr) {
@@ -247,9 +291,8 @@ void GcsTranscription::WriteTransition(const Transition& t) {
   if (PointAt(t.vertex)) {
     for (const double value : *PointAt(t.vertex)) columns_.push_back({lambda, value});
   } else {
-    const std::int32_t w = AddPoint(t.vertex);
-    for (std::int32_t i = 0; i < DimensionAt(t.vertex); ++i) columns_.push_back({w + i, 1});
-    WriteBlock(*of.set);
+    AddPoint(t.vertex);
+    WriteBlock(KeptSet(t.vertex));
   }
   WriteBlock(*of.terms);
   WriteSquares(lambda);
@@ -365,7 +408,8 @@ void GcsTranscription::DropRow() {
 }
 
 void GcsTranscription::WriteCoupling() {
-  const Leaving out(graph_.arcs()), in(Reversed(graph_.arcs()));
+  const Leaving& out = out_.emplace(graph_.arcs());
+  const Leaving in(Reversed(graph_.arcs()));
   for (std::int32_t v = 0; v < static_cast<std::int32_t>(graph_.vertices.size()); ++v) {
     if (out.Of(v).empty() && in.Of(v).empty()) continue;
     if (plan_.At(v)) {
@@ -389,6 +433,7 @@ void GcsTranscription::WriteFlow(std::int32_t vertex, std::span<const std::int32
   for (const std::int32_t a : in) p_.A.Add(edges_[At(a)].phi, -1);
   if (net != 0 || PointAt(vertex)) return;
   for (std::size_t i = 0; i < At(DimensionAt(vertex)); ++i) {
+    if (idle_->At(vertex, i)) continue;
     BeginRow(0, 0);
     for (const std::int32_t a : out) {
       p_.A.Add(Tail(At(a))[i].variable, Tail(At(a))[i].factor);
@@ -403,22 +448,24 @@ void GcsTranscription::WriteTransitionFlow(std::int32_t vertex, std::span<const 
   for (const std::int32_t a : in) {
     if (plan_.OwnsHead(At(a))) continue;
     WriteSum(plan_.From(At(a)), edges_[At(a)].phi,
-             is_point ? std::span<const Column>() : Head(At(a)));
+             is_point ? std::span<const Column>() : Head(At(a)), idle_->Unread(vertex));
   }
   for (const std::int32_t a : out) {
     if (plan_.OwnsTail(At(a))) continue;
-    WriteSum(plan_.To(At(a)), edges_[At(a)].phi,
-             is_point ? std::span<const Column>() : Tail(At(a)));
+    WriteSum(plan_.To(At(a)), edges_[At(a)].phi, is_point ? std::span<const Column>() : Tail(At(a)),
+             idle_->At(vertex));
   }
 }
 
 // An arc's flow and the point at its end as the sum of transitions'.
 void GcsTranscription::WriteSum(std::span<const std::int32_t> transitions, std::int32_t flow,
-                                std::span<const Column> end) {
+                                std::span<const Column> end,
+                                const std::vector<std::uint8_t>& missing) {
   BeginRow(0, 0);
   for (const std::int32_t k : transitions) p_.A.Add(ScaleOf(plan_.all()[At(k)], At(k)), 1);
   p_.A.Add(flow, -1);
   for (std::size_t i = 0; i < end.size(); ++i) {
+    if (!missing.empty() && missing[i] != 0) continue;
     BeginRow(0, 0);
     for (const std::int32_t k : transitions) {
       const Column copy = CopyOf(plan_.all()[At(k)], At(k), static_cast<std::int32_t>(i));

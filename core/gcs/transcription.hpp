@@ -10,6 +10,7 @@
 
 #include "core/gcs/block_program.hpp"
 #include "core/gcs/fixed_ends.hpp"
+#include "core/gcs/idle_heads.hpp"
 #include "core/gcs/pruning.hpp"
 #include "core/gcs/set_records.hpp"
 #include "core/gcs/term_block.hpp"
@@ -45,8 +46,9 @@ struct WrittenProgram {
 ///   flow      phi_e = sum_f lambda_ef, z_e = sum_f w_ef
 ///             phi_f = sum_e lambda_ef, y_f = sum_e w_ef
 /// where the only transition from e, or to f, has no copy of its own: it is z_e, or y_f.
-/// Coordinates that have but one value have no variable: they are phi times it. Bounds of y, z and
-/// w are the sets' boxes, hulled with 0: implied. Stays in place while a backend holds the problem.
+/// Coordinates that have but one value have no variable: they are phi times it; and heads have none
+/// for those that say nothing there, see IdleHeads. Bounds of y, z and w are the sets' boxes,
+/// hulled with 0: implied. Stays in place while a backend holds the problem.
 class GcsTranscription {
  public:
   using Transcription = GraphOfConvexSets::Transcription;
@@ -63,7 +65,8 @@ class GcsTranscription {
   /// The variable of an arc's flow, and the first of its slacks; -1: it has none.
   [[nodiscard]] std::int32_t flow(std::size_t arc) const { return edges_[arc].phi; }
   [[nodiscard]] std::int32_t slack(std::size_t arc) const { return edges_[arc].slack; }
-  /// phi x_u and phi x_v at a point of the problem.
+  /// phi x_u and phi x_v at a point of the problem; of an idle coordinate of x_v, phi times the
+  /// mean of what leaves v.
   [[nodiscard]] Eigen::VectorXd TailOf(std::size_t arc, const std::vector<double>& x) const;
   [[nodiscard]] Eigen::VectorXd HeadOf(std::size_t arc, const std::vector<double>& x) const;
   /// What the blocks of some arcs, and of transitions between them, cost at a point.
@@ -89,9 +92,10 @@ class GcsTranscription {
   void WriteBlocks();
   void PlaceBlocks();
   std::int32_t AddVariables(std::int32_t count);
-  std::int32_t AddPoint(std::int32_t vertex);
+  void AddPoint(std::int32_t vertex);
   void AddEdgeVariables(std::size_t arc);
-  void AddEnd(std::int32_t vertex, std::int32_t scale, std::span<const FixedCoordinate> fixed);
+  void AddEnd(std::int32_t vertex, std::int32_t scale, std::span<const FixedCoordinate> fixed,
+              const std::vector<std::uint8_t>& idle);
   [[nodiscard]] const std::vector<FixedCoordinate>* FixedOf(std::size_t arc) const {
     return blocks_of_edge_[arc].fixed[graph_.head[arc] == graph_.target ? 1 : 0];
   }
@@ -112,12 +116,20 @@ class GcsTranscription {
   void WriteTransitionFlow(std::int32_t vertex, std::span<const std::int32_t> in,
                            std::span<const std::int32_t> out);
   void WriteSum(std::span<const std::int32_t> transitions, std::int32_t flow,
-                std::span<const Column> end);
+                std::span<const Column> end, const std::vector<std::uint8_t>& missing);
+  /// Coordinates of an arc's head without a column; empty: none.
+  [[nodiscard]] const std::vector<std::uint8_t>& MissingAt(std::size_t arc) const;
+  /// The set's block without idle coordinates.
+  [[nodiscard]] const TermBlock& KeptSet(std::int32_t vertex);
+  [[nodiscard]] std::uint64_t IdleStamp(std::int32_t vertex) const;
   void Finish();
   void WriteHints();
   void WritePoints(bool tails, Csc& matrix, sy_csc& view) const;
   [[nodiscard]] static Eigen::VectorXd ValueOf(std::span<const Column> end,
                                                const std::vector<double>& x);
+  /// Of a coordinate that an arc's head has no column for: the columns that add up to it; none
+  /// where it is idle.
+  [[nodiscard]] std::vector<Column> PartsOf(std::size_t arc, std::int32_t coordinate) const;
 
   /// phi times an arc's end point, by coordinate.
   [[nodiscard]] std::span<const Column> Tail(std::size_t arc) const;
@@ -139,6 +151,8 @@ class GcsTranscription {
   std::vector<VertexBlocks> blocks_of_vertex_;
   std::vector<EdgeBlocks> blocks_of_edge_;  // by arc
   TransitionPlan plan_;
+  std::optional<IdleHeads> idle_;
+  std::optional<Leaving> out_;
   std::vector<std::optional<Eigen::VectorXd>> point_;  // of each vertex whose set is one
   std::vector<EdgeVariables> edges_;
   std::vector<TransitionVariables> transitions_;

@@ -117,7 +117,11 @@ void Tightened::Add(const sy_csc& points, std::int32_t column, double sign, Sum&
 
 Tightened::Cone Tightened::ConeOf(std::int32_t u, std::int32_t w) const {
   const sy_paths& paths = whole_.paths();
-  Cone cone{u, {}, std::vector<Sum>(At(paths.dim[u])), {}};
+  Cone cone{u,
+            {},
+            std::vector<Sum>(At(paths.dim[u])),
+            {},
+            std::vector<std::uint8_t>(At(paths.dim[u]), 1)};
   for (const std::int32_t a : whole_.out().Of(u)) {
     if (paths.head[a] == w) continue;
     AddFlow(a, 1, cone.scale);
@@ -129,7 +133,11 @@ Tightened::Cone Tightened::ConeOf(std::int32_t u, std::int32_t w) const {
     if (paths.tail[a] != w) continue;
     AddFlow(a, -1, cone.scale);
     for (std::int32_t i = 0; i < paths.dim[u]; ++i) {
-      Add(paths.head_point, head_first_[At(a)] + i, -1, cone.point[At(i)]);
+      const std::int32_t column = head_first_[At(a)] + i;
+      Add(paths.head_point, column, -1, cone.point[At(i)]);
+      if (paths.head_point.start[column] == paths.head_point.start[column + 1]) {
+        cone.known[At(i)] = 0;
+      }
     }
   }
   Merge(cone.scale.entries);
@@ -138,6 +146,17 @@ Tightened::Cone Tightened::ConeOf(std::int32_t u, std::int32_t w) const {
     cone.factor.push_back(FactorOf(sum.entries, cone.scale.entries));
   }
   return cone;
+}
+
+bool Tightened::Cone::Knows(const sy_csc& by_rows, std::int32_t row) const {
+  for (std::int32_t k = by_rows.start[row]; k < by_rows.start[row + 1]; ++k) {
+    if (by_rows.row[k] > 0 && known[At(by_rows.row[k] - 1)] == 0) return false;
+  }
+  return true;
+}
+
+bool Tightened::Cone::KnowsAll() const {
+  return std::find(known.begin(), known.end(), 0) == known.end();
 }
 
 double Tightened::ConeViolation(const sy_set& set, std::span<const double> at) {
@@ -181,9 +200,10 @@ void Tightened::Find(std::int32_t u, std::int32_t w, std::span<const double> x,
   see(kScale, -at[0]);
   if (set == nullptr || added_.count({u, w, kWhole}) > 0) return;
   // What a set with variables of its own makes of the point is not told by looking.
-  if (set->num_aux > 0) return see(kWhole, kInfinity);
-  see(kWhole, ConeViolation(*set, at));
+  if (set->num_aux > 0) return see(kWhole, cone.KnowsAll() ? kInfinity : 0);
+  if (cone.KnowsAll()) see(kWhole, ConeViolation(*set, at));
   for (std::int32_t i = 0; i < set->num_rows; ++i) {
+    if (!cone.Knows(*set->At, i)) continue;
     double size = 1;
     const double value = RowAt(*set->At, i, at, size);
     see(i, std::max(set->row_lower[i] - value, value - set->row_upper[i]) / size);

@@ -63,7 +63,10 @@ class Tightened {
     std::int32_t vertex;
     Sum scale;
     std::vector<Sum> point;
-    std::vector<double> factor;  // NaN: point[i] is not this times the scale
+    std::vector<double> factor;       // NaN: point[i] is not this times the scale
+    std::vector<std::uint8_t> known;  // of each coordinate: do all arcs say it?
+    [[nodiscard]] bool Knows(const sy_csc& by_rows, std::int32_t row) const;
+    [[nodiscard]] bool KnowsAll() const;
   };
 
   void ListPairs();

@@ -71,7 +71,13 @@ bool VertexHull::Asks(std::int32_t v, std::span<const double> x) const {
     return std::count_if(arcs.begin(), arcs.end(),
                          [&](std::int32_t a) { return x[At(paths.flow[a])] > kFlow; });
   };
-  return used(in_.Of(v)) > 1 && used(whole_.out().Of(v)) > 1;
+  const auto is_known = [&](std::int32_t a) {  // is no column empty?
+    const std::int32_t* start = paths.head_point.start + head_first_[At(a)];
+    return std::adjacent_find(start, start + paths.dim[v] + 1) == start + paths.dim[v] + 1;
+  };
+  const auto in = in_.Of(v);
+  return used(in) > 1 && used(whole_.out().Of(v)) > 1 &&
+         std::all_of(in.begin(), in.end(), is_known);
 }
 
 /// One vertex: the elastic program over the arcs that are used, and the row that it gives.

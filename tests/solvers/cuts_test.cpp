@@ -186,7 +186,8 @@ TEST_P(Cuts, EveryPathKeepsTheRowOfAHull) {
 
 /// From the source by one of two points to a square, from there by one of two points to the target.
 struct Crossing {
-  Crossing() {
+  /// `speaks`: do the edges into the square say something of its points?
+  explicit Crossing(bool speaks = true) {
     const Eigen::Vector2d at[] = {{-1, 0.5}, {0, 0}, {0, 1}, {0, 0}, {2, 0}, {2, 1}, {3, 0.5}};
     for (int k = 0; k < 7; ++k) {
       vertices.push_back(
@@ -195,7 +196,8 @@ struct Crossing {
     }
     for (const int k : {1, 2}) {
       graph.AddEdge(vertices[0], vertices[At(k)]);
-      graph.AddEdge(vertices[At(k)], vertices[3]);
+      auto* in = graph.AddEdge(vertices[At(k)], vertices[3]);
+      for (int i = 0; speaks && i < 2; ++i) in->AddConstraint(in->xv()[i] <= 5);
     }
     for (const int k : {4, 5}) {
       graph.AddEdge(vertices[3], vertices[At(k)]);
@@ -245,6 +247,16 @@ TEST_F(Hull, CutsOffAFlowThatLacksTransitionsAndNoMixtureOfPaths) {
   EXPECT_TRUE(hull.Cut(3, crossing_.Half(t_, a, b, a, b), 1e-5).empty());
   EXPECT_TRUE(hull.Cut(3, crossing_.Half(t_, a, b, b, a), 1e-5).empty());
   EXPECT_TRUE(hull.Cut(3, crossing_.Half(t_, a, b, middle, middle), 1e-5).empty());
+}
+
+TEST_F(Hull, DoesNotAskWhereArcsSayNothingOfTheirHeads) {
+  const Crossing crossing(false);
+  const Transcribed t(crossing, false);
+  const PathProblem whole(t.view());
+  const VertexHull hull(whole, *host_->table(), options_, budget_);
+  std::vector<double> x(t.data().q.size(), 0.0);
+  for (std::int32_t a = 0; a < t.paths().num_arcs; ++a) x[At(t.paths().flow[a])] = 0.5;
+  EXPECT_FALSE(hull.Asks(3, x));
 }
 
 TEST_F(Hull, AsksWhereBothSidesAreUsedAndTheSetIsKnown) {
