@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "solvers/rounding/backend.hpp"
+#include "solvers/rounding/recombine.hpp"
 #include "solvers/rounding/restriction.hpp"
 #include "solvers/rounding/verify.hpp"
 #include "switchyard/problem.hpp"
@@ -122,12 +123,10 @@ class Solving {
 
 namespace {
 
-/// The path of the largest product of its arcs' parts of the flows out of their tails: a shortest
-/// one where an arc's length is -log of its part. None where arcs above the tolerance hold no path.
-std::vector<std::int32_t> MostProbablePath(const PathProblem& whole,
-                                           const std::vector<double>& flow, double tolerance) {
-  const Arcs& arcs = whole.arcs();
-  const sy_paths& paths = whole.paths();
+/// Of each arc, -log of its part of the flow out of its tail; infinity where the tolerance is not
+/// passed.
+std::vector<double> Improbabilities(const Arcs& arcs, const std::vector<double>& flow,
+                                    double tolerance) {
   std::vector<double> through(static_cast<std::size_t>(arcs.num_vertices), 0.0);
   for (std::size_t a = 0; a < arcs.size(); ++a) {
     if (flow[a] > tolerance) through[static_cast<std::size_t>(arcs.tail[a])] += flow[a];
@@ -137,10 +136,20 @@ std::vector<std::int32_t> MostProbablePath(const PathProblem& whole,
     if (!(flow[a] > tolerance)) continue;
     length[a] = std::max(0.0, -std::log(flow[a] / through[static_cast<std::size_t>(arcs.tail[a])]));
   }
+  return length;
+}
+
+/// The path of the largest product of its arcs' parts of the flows out of their tails: a shortest
+/// one where an arc's length is -log of its part. None where arcs above the tolerance hold no path.
+std::vector<std::int32_t> MostProbablePath(const PathProblem& whole,
+                                           const std::vector<double>& flow, double tolerance) {
+  const Arcs& arcs = whole.arcs();
+  const sy_paths& paths = whole.paths();
+  const std::vector<double> length = Improbabilities(arcs, flow, tolerance);
   const std::vector<double> distance = Distances(arcs, whole.out(), length, paths.source);
   const Leaving in(Reversed(arcs));
   std::vector<std::int32_t> path;
-  std::vector<std::uint8_t> seen(through.size(), 0);  // arcs of length 0 may form a cycle
+  std::vector<std::uint8_t> seen(distance.size(), 0);  // arcs of length 0 may form a cycle
   for (std::int32_t v = paths.target; v != paths.source;) {
     seen[static_cast<std::size_t>(v)] = 1;
     std::int32_t best = -1;
@@ -187,6 +196,15 @@ void AddLikeliest(const PathProblem& whole, const std::vector<double>& x, const 
   std::vector<std::int32_t> path =
       MostProbablePath(whole, FlowIn(whole, x), options.flow_tolerance);
   if (!path.empty()) AddPath(std::move(path), candidates);
+}
+
+std::vector<std::vector<std::int32_t>> LikelyDeviations(const PathProblem& whole,
+                                                        const std::vector<double>& x,
+                                                        const Options& options,
+                                                        std::span<const std::int32_t> path) {
+  const std::vector<double> length =
+      Improbabilities(whole.arcs(), FlowIn(whole, x), options.flow_tolerance);
+  return Deviations(whole.arcs(), whole.out(), length, path, whole.paths().target);
 }
 
 void SampleCandidates(const PathProblem& whole, const std::vector<double>& x,

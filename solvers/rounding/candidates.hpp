@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,12 @@ bool AddPath(std::vector<std::int32_t> path, std::vector<Candidate>& candidates)
 /// Adds the path of the largest product of its arcs' parts of the flow, where it is not there yet.
 void AddLikeliest(const PathProblem& whole, const std::vector<double>& x, const Options& options,
                   std::vector<Candidate>& candidates);
+
+/// Paths that leave a path by an arc with flow and go on by the likeliest way, the likeliest first.
+std::vector<std::vector<std::int32_t>> LikelyDeviations(const PathProblem& whole,
+                                                        const std::vector<double>& x,
+                                                        const Options& options,
+                                                        std::span<const std::int32_t> path);
 
 /// Adds up to `count` others, drawn from the relaxed point's flows, and takes the draws from
 /// `trials`.

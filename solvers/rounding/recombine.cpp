@@ -1,6 +1,9 @@
 #include "solvers/rounding/recombine.hpp"
 
+#include <algorithm>
+#include <limits>
 #include <unordered_map>
+#include <utility>
 
 namespace switchyard::rounding {
 
@@ -29,6 +32,82 @@ std::vector<std::vector<std::int32_t>> Detours(const Arcs& arcs, std::span<const
     detour.insert(detour.end(), path.begin() + static_cast<std::ptrdiff_t>(to), path.end());
   }
   return detours;
+}
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+std::size_t At(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+/// Ways to a target beside vertices that are not to be met.
+class WaysTo {
+ public:
+  WaysTo(const Arcs& arcs, const Leaving& out, std::span<const double> length,
+         const std::vector<std::uint8_t>& met, std::int32_t target)
+      : arcs_(arcs), out_(out), target_(target), length_(length.begin(), length.end()) {
+    for (std::size_t a = 0; a < length_.size(); ++a) {
+      if (met[At(arcs.tail[a])] != 0 || met[At(arcs.head[a])] != 0) length_[a] = kInfinity;
+    }
+    const Arcs back = Reversed(arcs);
+    distance_ = Distances(back, Leaving(back), length_, target);
+  }
+
+  [[nodiscard]] double From(std::int32_t v) const { return distance_[At(v)]; }
+  /// Appends a shortest one; false: ties lead in a circle.
+  bool Follow(std::int32_t v, std::vector<std::int32_t>& path) const {
+    for (std::size_t steps = 0; v != target_; ++steps) {
+      if (steps > distance_.size()) return false;
+      std::int32_t next = -1;
+      double best = kInfinity;
+      for (const std::int32_t a : out_.Of(v)) {
+        const double through = length_[At(a)] + distance_[At(arcs_.head[At(a)])];
+        if (!(through < best)) continue;
+        best = through;
+        next = a;
+      }
+      if (next < 0) return false;
+      path.push_back(next);
+      v = arcs_.head[At(next)];
+    }
+    return true;
+  }
+
+ private:
+  const Arcs& arcs_;
+  const Leaving& out_;
+  std::int32_t target_;
+  std::vector<double> length_, distance_;
+};
+
+}  // namespace
+
+std::vector<std::vector<std::int32_t>> Deviations(const Arcs& arcs, const Leaving& out,
+                                                  std::span<const double> length,
+                                                  std::span<const std::int32_t> path,
+                                                  std::int32_t target) {
+  std::vector<std::pair<double, std::vector<std::int32_t>>> found;
+  std::vector<std::uint8_t> met(At(arcs.num_vertices), 0);
+  double before = 0;
+  for (std::size_t k = 0; k < path.size(); ++k) {
+    const std::int32_t v = arcs.tail[At(path[k])];
+    met[At(v)] = 1;
+    const WaysTo ways(arcs, out, length, met, target);
+    for (const std::int32_t a : out.Of(v)) {
+      const std::int32_t w = arcs.head[At(a)];
+      const double total = before + length[At(a)] + ways.From(w);
+      if (a == path[k] || met[At(w)] != 0 || !(total < kInfinity)) continue;
+      std::vector<std::int32_t> other(path.begin(), path.begin() + static_cast<std::ptrdiff_t>(k));
+      other.push_back(a);
+      if (ways.Follow(w, other)) found.emplace_back(total, std::move(other));
+    }
+    before += length[At(path[k])];
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<std::vector<std::int32_t>> paths;
+  for (auto& [total, other] : found) paths.push_back(std::move(other));
+  return paths;
 }
 
 }  // namespace switchyard::rounding

@@ -14,4 +14,12 @@ namespace switchyard::rounding {
 std::vector<std::vector<std::int32_t>> Detours(const Arcs& arcs, std::span<const std::int32_t> path,
                                                std::span<const std::int32_t> other);
 
+/// At each vertex of a path from its source to `target`, by each other arc of finite length that
+/// leaves it: the shortest way on that meets no vertex of the path up to there (Yen, Management
+/// Science 17, 1971). The shortest first; lengths are at least 0, infinity: not to be used.
+std::vector<std::vector<std::int32_t>> Deviations(const Arcs& arcs, const Leaving& out,
+                                                  std::span<const double> length,
+                                                  std::span<const std::int32_t> path,
+                                                  std::int32_t target);
+
 }  // namespace switchyard::rounding

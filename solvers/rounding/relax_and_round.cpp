@@ -149,29 +149,62 @@ class Run {
     }
   }
 
-  // Detours of the best path along the others, as many as paths were asked for, as long as one of
-  // them is better than what it was made from.
+  // Detours of the best path along the others, and where they do not help likely deviations: as
+  // many as paths were asked for, as long as one of them is better than what it was made from. What
+  // a front end's own restrictions cost is not known: it gets detours alone.
   void Recombine() {
     std::size_t left = static_cast<std::size_t>(options_.paths);
-    for (const Candidate* best = Best(); best != nullptr && left > 0 && !budget_.Stopped();) {
-      const std::vector<std::int32_t> base = best->path;
-      std::vector<std::vector<std::int32_t>> detours;
-      for (const Candidate& c : candidates_) {
-        if (!c.feasible) continue;
-        for (auto& detour : Detours(whole_.arcs(), base, c.path)) {
-          detours.push_back(std::move(detour));
-        }
-      }
-      const double before = best->objective;
-      const std::size_t count = candidates_.size();
-      for (auto& detour : detours) {
-        if (left > 0 && AddPath(std::move(detour), candidates_)) --left;
-      }
-      if (candidates_.size() == count) return;
-      SolveCandidates(whole_, host_, options_, budget_.control().threads, budget_, candidates_);
-      best = Best();
-      if (!(best->objective < before)) return;
+    const bool deviates = whole_.paths().solve_path == nullptr;
+    while (Improve(DetoursOfBest(), left) || (deviates && Improve(DeviationsOfBest(), left))) {
     }
+  }
+
+  using Paths = std::vector<std::vector<std::int32_t>>;
+
+  [[nodiscard]] Paths DetoursOfBest() const {
+    Paths detours;
+    const Candidate* best = Best();
+    for (const Candidate& c : candidates_) {
+      if (best == nullptr || !c.feasible) continue;
+      for (auto& detour : Detours(whole_.arcs(), best->path, c.path)) {
+        detours.push_back(std::move(detour));
+      }
+    }
+    return detours;
+  }
+
+  /// Of the best path first, then of the next.
+  [[nodiscard]] Paths DeviationsOfBest() const {
+    std::vector<const Candidate*> order;
+    for (const Candidate& c : candidates_) {
+      if (c.feasible) order.push_back(&c);
+    }
+    std::stable_sort(order.begin(), order.end(), [](const Candidate* a, const Candidate* b) {
+      return a->objective < b->objective;
+    });
+    Paths deviations;
+    if (order.empty() || IsWithinTheGap(order.front()->objective)) return deviations;
+    const auto enough = 4 * static_cast<std::size_t>(options_.paths);  // some are known
+    for (const Candidate* c : order) {
+      if (deviations.size() > enough) break;
+      for (auto& path : LikelyDeviations(whole_, relaxed_.x, options_, c->path)) {
+        deviations.push_back(std::move(path));
+      }
+    }
+    return deviations;
+  }
+
+  /// Is one of the paths, of which `left` are tried at most, better than the best so far?
+  bool Improve(Paths paths, std::size_t& left) {
+    if (paths.empty() || left == 0 || budget_.Stopped()) return false;
+    const double before = Best()->objective;
+    const std::size_t count = candidates_.size();
+    for (auto& path : paths) {
+      if (left > 0 && AddPath(std::move(path), candidates_)) --left;
+    }
+    if (candidates_.size() == count) return false;
+    SolveCandidates(whole_, host_, options_, budget_.control().threads, budget_, candidates_);
+    return Best()->objective < before;
   }
 
   [[nodiscard]] const Candidate* Best() const {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 #include <set>
 
@@ -102,6 +103,50 @@ TEST(Detours, AreThoseOfTheDefinitionAndSimplePaths) {
 TEST(Detours, OfNothingAreNone) {
   const Graph g(1);
   EXPECT_TRUE(rounding::Detours(g.arcs(), {}, {}).empty());
+}
+
+/// For each place and other arc there: the shortest simple path that begins so.
+TEST(Deviations, AreTheShortestPathsThatLeaveAPathThere) {
+  std::size_t made = 0;
+  for (std::uint64_t seed = 1; seed <= 800; ++seed) {
+    const Graph g(seed);
+    std::mt19937_64 engine(seed);
+    std::vector<double> length;
+    for (std::size_t a = 0; a < g.tail.size(); ++a) {
+      length.push_back(engine() % 6 == 0 ? HUGE_VAL : 0.1 + 1e-3 * double(engine() % 1000));
+    }
+    const auto length_of = [&](const Path& path) {
+      double sum = 0;
+      for (const std::int32_t a : path) sum += length[At(a)];
+      return sum;
+    };
+    const Leaving out(g.arcs());
+    for (const Path& path : g.paths) {
+      if (length_of(path) == HUGE_VAL) continue;
+      std::vector<double> shortest;  // by place and arc
+      for (std::size_t k = 0; k < path.size(); ++k) {
+        for (const std::int32_t a : out.Of(g.tail[At(path[k])])) {
+          double best = HUGE_VAL;
+          for (const Path& other : g.paths) {
+            const bool begins =
+                other.size() > k && other[k] == a && a != path[k] &&
+                std::equal(path.begin(), path.begin() + std::ptrdiff_t(k), other.begin());
+            if (begins) best = std::min(best, length_of(other));
+          }
+          if (best < HUGE_VAL) shortest.push_back(best);
+        }
+      }
+      std::sort(shortest.begin(), shortest.end());
+      const auto deviations = rounding::Deviations(g.arcs(), out, length, path, g.num_vertices - 1);
+      ASSERT_EQ(deviations.size(), shortest.size());
+      for (std::size_t k = 0; k < shortest.size(); ++k) {
+        EXPECT_NEAR(length_of(deviations[k]), shortest[k], 1e-12);
+        EXPECT_EQ(std::count(g.paths.begin(), g.paths.end(), deviations[k]), 1);
+      }
+      made += shortest.size();
+    }
+  }
+  EXPECT_GT(made, 500u);
 }
 
 }  // namespace
