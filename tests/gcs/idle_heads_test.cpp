@@ -88,11 +88,15 @@ int CheckSame(unsigned seed, bool corridor, bool transitions) {
   Segments lean(seed, corridor), full(seed, corridor);
   full.SpeakOfHeads();
   const Transcribed without(lean, transitions), with(full, transitions);
-  if (!transitions) EXPECT_GT(EmptyHeads(without), 0);
+  if (!transitions) {
+    EXPECT_GT(EmptyHeads(without), 0);
+  }
   EXPECT_EQ(EmptyHeads(with), 0);
   const Solved a = SolvedBy(host, without.view()), b = SolvedBy(host, with.view());
   EXPECT_EQ(a.termination, b.termination);
-  if (a.termination == SY_OPTIMAL) EXPECT_NEAR(a.objective, b.objective, 1e-6 * (1 + b.objective));
+  if (a.termination == SY_OPTIMAL) {
+    EXPECT_NEAR(a.objective, b.objective, 1e-6 * (1 + b.objective));
+  }
   return with.data().num_vars - without.data().num_vars;
 }
 
