@@ -190,13 +190,12 @@ bool Search::SolveOnce(const ProblemData& data) {
 // are left out of the answer.
 void Search::SolveWhole() {
   ProblemData data = transcription_->problem().data();
-  Problem problem;  // with what forbids them
   while (SolveOnce(data)) {
     if (raw_->raw.primal != SY_FEASIBLE && raw_->raw.primal != SY_NEARLY_FEASIBLE) return;
     if (!ForbidCycles(pruned_, *transcription_, raw_->vectors.x, data)) return;
     data.hints = nullptr;  // they know nothing of the new rows
-    problem = Problem(data);
-    choice_.instance->Load(problem.view(), 0);
+    forbidding_ = Problem(data);
+    choice_.instance->Load(forbidding_.view(), 0);
     ++answer_.cycle_rounds;
   }
 }

@@ -85,6 +85,7 @@ class Search {
   PrunedGraph pruned_;
   TermTags tags_;
   std::unique_ptr<GcsTranscription> transcription_;
+  Problem forbidding_;  // the whole problem and what forbids cycles: in place while it is loaded
   BackendChoice choice_;
   std::unique_ptr<AnswerBuffers> raw_;
   bool failed_ = false;            // nothing came back

@@ -258,7 +258,7 @@ void GcsTranscription::WriteEdge(std::size_t arc) {
     place(Tail(arc));
     if (!PointAt(u)) WriteBlock(*blocks_of_vertex_[At(u)].set);
     WriteBlock(*blocks_of_vertex_[At(u)].terms);
-  } else if (!idle_->At(u).empty()) {
+  } else if (!PointAt(u) && !idle_->At(u).empty()) {
     columns_.assign(1, {at.phi, 1});
     place(Tail(arc));
     WriteBlock(written_.blocks.Split(*graph_.vertices[At(u)], idle_->At(u)).idle);

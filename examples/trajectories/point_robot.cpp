@@ -54,7 +54,7 @@ int main(int argc, char** argv) {
   problem.AddPathContinuityConstraints(1);
 
   const GcsTrajectory found = problem.FindPath(start, goal);
-  if (found.segment_vertices.empty()) {
+  if (!found.result().is_success()) {
     std::cerr << found.result().message << "\n";
     return 1;
   }

@@ -73,7 +73,7 @@ int main(int argc, char** argv) {
   for (int k = 1; k <= 4; ++k) problem.AddPathContinuityConstraints(k);
 
   const GcsTrajectory found = problem.FindPath(start, goal);
-  if (found.segment_vertices.empty()) {
+  if (!found.result().is_success()) {
     std::cerr << found.result().message << "\n";
     return 1;
   }

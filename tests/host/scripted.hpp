@@ -85,8 +85,8 @@ class Session {
   Instance& instance() { return instance_; }
 
  private:
+  Problem problem_;  // in place while the instance has it
   Instance instance_;
-  Problem problem_;
 };
 
 /// What a call of a facade that must fail said; "" where it did not.
