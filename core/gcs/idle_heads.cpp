@@ -19,8 +19,9 @@ void Mark(const TermBlock& block, std::size_t first, const std::vector<std::int3
 std::vector<std::uint8_t> Without(const std::vector<std::uint8_t>& needed,
                                   const std::vector<std::int32_t>& group) {
   std::vector<std::uint8_t> others;
-  for (const std::int32_t g : group) others.push_back(needed[Index(g)] == 0 ? 1 : 0);
-  if (std::find(others.begin(), others.end(), 1) == others.end()) others.clear();
+  const auto is_needed = [&](std::int32_t g) { return needed[Index(g)] != 0; };
+  if (std::all_of(group.begin(), group.end(), is_needed)) return others;
+  for (const std::int32_t g : group) others.push_back(is_needed(g) ? 0 : 1);
   return others;
 }
 
