@@ -109,15 +109,18 @@ std::string TableFault(const sy_solver& solver) {
 
 std::string TableFault(const sy_plugin& plugin) {
   if (!Reaches(plugin, offsetof(sy_plugin, solvers) + sizeof plugin.solvers)) {
-    return Text("the plugin's table is short: ", plugin.size, " bytes, ", sizeof(sy_plugin),
-                " needed");
+    return Text("the plugin's table is short: ", plugin.size, " bytes, at least ",
+                offsetof(sy_plugin, solvers) + sizeof plugin.solvers, " needed");
   }
   if (plugin.abi_major != SY_ABI_MAJOR) {
     return Text("made for version ", plugin.abi_major, " of the plugin ABI, this host speaks ",
                 SY_ABI_MAJOR);
   }
   if (plugin.name == nullptr || plugin.version == nullptr) return "no name or no version";
-  if (plugin.solvers == nullptr || *plugin.solvers == nullptr) return "it offers no solver";
+  const bool extended = Reaches(plugin, sizeof(sy_plugin)) && plugin.extension != nullptr;
+  if ((plugin.solvers == nullptr || *plugin.solvers == nullptr) && !extended) {
+    return "it offers no solver, and no table of another kind";
+  }
   return "";
 }
 

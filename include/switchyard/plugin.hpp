@@ -224,8 +224,8 @@ const sy_plugin& Plugin(const char* name, const char* version) {
     for (std::size_t i = 0; i < tables.size(); ++i) list[i] = &tables[i];
     return list;
   }();
-  static const sy_plugin plugin = {sizeof(sy_plugin), SY_ABI_MAJOR,  SY_ABI_MINOR, name,
-                                   version,           solvers.data()};
+  static const sy_plugin plugin = {sizeof(sy_plugin), SY_ABI_MAJOR,   SY_ABI_MINOR, name,
+                                   version,           solvers.data(), nullptr};
   return plugin;
 }
 

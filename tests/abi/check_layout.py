@@ -15,7 +15,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-HEADERS = ["abi.h", "hints.h"]
+HEADERS = ["abi.h", "hints.h", "dynamics.h"]
 # Values: no `size`, and they never change. Everything else is a record.
 VALUES = {"sy_error", "sy_csc", "sy_cone", "sy_hint", "sy_value"}
 

@@ -19,7 +19,7 @@ def said_of(old, new):
     with tempfile.TemporaryDirectory() as folder:
         changed = Path(folder) / "switchyard"
         changed.mkdir()
-        for header in ("abi.h", "hints.h"):
+        for header in ("abi.h", "hints.h", "dynamics.h"):
             text = (Path(INCLUDE) / "switchyard" / header).read_text()
             if header == "abi.h":
                 assert old in text, old

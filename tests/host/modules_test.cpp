@@ -133,15 +133,30 @@ TEST(Modules, EachWayOfBeingWrongIsSaid) {
   EXPECT_EQ(Verdict(Fake("major_9")),
             "not compatible: made for version 9 of the plugin ABI, this host speaks 1");
   EXPECT_EQ(Verdict(Fake("short_plugin")),
-            "not compatible: the plugin's table is short: 16 bytes, 32 needed");
+            "not compatible: the plugin's table is short: 16 bytes, at least 32 needed");
   EXPECT_THAT(Verdict(Fake("short_solver")),
               StartsWith("not compatible: a solver's table is short: "));
   EXPECT_EQ(Verdict(Fake("no_id")), "not compatible: a solver has no id");
-  EXPECT_EQ(Verdict(Fake("no_solvers")), "not compatible: it offers no solver");
+  EXPECT_EQ(Verdict(Fake("no_solvers")),
+            "not compatible: it offers no solver, and no table of another kind");
   EXPECT_EQ(Verdict(Fake("needs_library")),
             "not loadable: dependency absent: libfake_dependency.so is not on this machine");
   EXPECT_THAT(Verdict(Fake("needs_symbol")),
               AllOf(StartsWith("not loadable: symbol absent: "), HasSubstr("fake_symbol_absent")));
+}
+
+TEST(Modules, APluginMayOfferTablesThatAreNoSolvers) {
+  Host host(Nowhere());
+  ASSERT_TRUE(host.Load(Fake("well_behaved")));
+  EXPECT_TRUE(host.Tables("test.seventeen/1").empty());
+  ASSERT_TRUE(host.Load(Fake("tables_alone")));
+  EXPECT_EQ(host.backends().size(), 1u);
+  EXPECT_TRUE(host.Tables("test.eighteen/1").empty());
+  const std::vector<PluginTable> found = host.Tables("test.seventeen/1");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(*static_cast<const int*>(found[0].table), 17);
+  EXPECT_EQ(found[0].plugin, "fake 1.0");
+  EXPECT_EQ(found[0].origin, Fake("tables_alone"));
 }
 
 TEST(Modules, OneThatIsNotReadySaysWhyAndIsAskedAnew) {

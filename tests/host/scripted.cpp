@@ -99,7 +99,7 @@ Script::Script(const char* id) {
   table.license = "BSD-3-Clause";
   table.accepts = SY_ACCEPTS_BOUNDS | SY_ACCEPTS_ROWS;
   plugin::WriteFunctions<Scripted>(table);
-  plugin = {sizeof plugin, SY_ABI_MAJOR, SY_ABI_MINOR, "scripted", "1.0", list};
+  plugin = {sizeof plugin, SY_ABI_MAJOR, SY_ABI_MINOR, "scripted", "1.0", list, nullptr};
 }
 
 const Backend& Add(Host& host, Script& script) {

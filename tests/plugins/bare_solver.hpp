@@ -33,7 +33,7 @@ inline std::vector<Named> AllSolvers() {
     void* module = dlopen(file.path().c_str(), RTLD_NOW | RTLD_LOCAL);
     if (module == nullptr) continue;
     const auto entry = reinterpret_cast<sy_plugin_entry>(dlsym(module, SY_PLUGIN_ENTRY));
-    if (entry == nullptr) continue;
+    if (entry == nullptr || entry()->solvers == nullptr) continue;
     for (const sy_solver* const* s = entry()->solvers; *s != nullptr; ++s) {
       if (((*s)->traits & SY_STRATEGY) != 0) continue;  // needs a host that offers others
       all.push_back({(*s)->name, *s});

@@ -155,7 +155,8 @@ class FakeBackend {
   const sy_option* options_[3] = {&speed_, &mode_, nullptr};
   sy_solver table_{};
   const sy_solver* solvers_[2] = {&table_, nullptr};
-  sy_plugin plugin_ = {sizeof(sy_plugin), SY_ABI_MAJOR, SY_ABI_MINOR, "fakes", "1.0", solvers_};
+  sy_plugin plugin_ = {sizeof(sy_plugin), SY_ABI_MAJOR, SY_ABI_MINOR, "fakes", "1.0",
+                       solvers_,          nullptr};
   Host host_{HostOptions{{}, std::vector<std::string>{}, {}}};
 };
 

@@ -32,6 +32,14 @@ struct Backend {
   std::string origin;  // the file, or "registered by the program"
 };
 
+/// A table of a plugin that is no solver, such as "sy.dynamics/1" of switchyard/dynamics.h. Lives
+/// as long as the process.
+struct PluginTable {
+  const void* table = nullptr;
+  std::string plugin;  // name and version of the plugin
+  std::string origin;  // the file, or "registered by the program"
+};
+
 /// Whether a backend could be used now: license, device, library.
 struct Readiness {
   bool ready = false;
@@ -88,6 +96,8 @@ class SWITCHYARD_EXPORT Host {
   /// All usable backends, in the order in which they were found.
   [[nodiscard]] std::vector<const Backend*> backends() const;
   [[nodiscard]] std::vector<PluginProblem> problems() const;
+  /// The tables named `id`, one a plugin that has one, in the order in which they were found.
+  [[nodiscard]] std::vector<PluginTable> Tables(const std::string& id) const;
   /// The folders that were searched, in order.
   [[nodiscard]] const std::vector<std::string>& folders() const;
   /// By id or short name; nullptr where there is none.

@@ -312,6 +312,7 @@ record!(sy_plugin {
     name: *const c_char,
     version: *const c_char,
     solvers: *const *const sy_solver,
+    extension: Option<unsafe extern "C" fn(*const c_char) -> *const c_void>,
 });
 
 /// A record starts with the sizeof its author compiled with.

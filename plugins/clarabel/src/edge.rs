@@ -240,6 +240,7 @@ pub extern "C" fn switchyard_plugin_v1() -> *const sy_plugin {
             name: c_text("clarabel"),
             version: c_text(env!("CARGO_PKG_VERSION")),
             solvers: solvers.as_ptr(),
+            extension: None,
         })))
     });
     made.0

@@ -2,6 +2,7 @@
 // Where it works it is a linear program over a box: x[i] goes to the bound that q[i] asks for.
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <stdexcept>
 
 #include "switchyard/abi.h"
@@ -22,6 +23,7 @@
 #define LOAD_THROWS 13
 #define THROWS_NO_EXCEPTION_CLASS 14
 #define NO_SOLVERS 15
+#define TABLES_ALONE 16
 
 #ifndef FAKE_ID
 #define FAKE_ID "org.fake.module"
@@ -111,6 +113,16 @@ sy_solver Table() {
   return t;
 }
 
+#if FAKE == TABLES_ALONE
+const void* Extension(const char* id) noexcept {
+  static const int table = 17;
+  return std::strcmp(id, "test.seventeen/1") == 0 ? &table : nullptr;
+}
+constexpr auto kExtension = Extension;
+#else
+constexpr std::nullptr_t kExtension = nullptr;
+#endif
+
 const sy_plugin* Plugin() {
   static const sy_solver solver = Table();
   static const sy_solver* const solvers[] = {FAKE == NO_SOLVERS ? nullptr : &solver, nullptr};
@@ -119,7 +131,8 @@ const sy_plugin* Plugin() {
                                    SY_ABI_MINOR,
                                    "fake",
                                    FAKE_VERSION,
-                                   solvers};
+                                   FAKE == TABLES_ALONE ? nullptr : solvers,
+                                   kExtension};
 #if FAKE == NEEDS_LIBRARY
   if (fake_dependency() != 0) return nullptr;
 #elif FAKE == NEEDS_SYMBOL
