@@ -23,7 +23,10 @@ std::vector<Column> GcsTranscription::PartsOf(std::size_t arc, std::int32_t coor
 
 /// A column for each coordinate of each arc's tail, or head; empty where it is idle.
 void GcsTranscription::WritePoints(bool tails, Csc& matrix, sy_csc& view) const {
-  matrix = Csc(problem_.data().num_vars, 0);
+  matrix.rows = problem_.data().num_vars;
+  matrix.start.assign(1, 0);
+  matrix.row.clear();
+  matrix.value.clear();
   const auto add = [&](const Column& column) {
     matrix.row.push_back(column.variable);
     matrix.value.push_back(column.factor);
@@ -85,8 +88,8 @@ double GcsTranscription::CostOf(const std::vector<std::int32_t>& arcs,
   double cost = 0;
   for (std::size_t j = 0; j < p_.block_of_x.size(); ++j) {
     const std::int32_t block = p_.block_of_x[j];
-    const bool counts =
-        block >= 0 && among[At(arc_in_[At(block)])] != 0 && among[At(arc_out_[At(block)])] != 0;
+    const bool counts = block >= 0 && among[At(lists_.arc_in[At(block)])] != 0 &&
+                        among[At(lists_.arc_out[At(block)])] != 0;
     if (counts) cost += problem_.data().q[j] * x[j];
   }
   return cost;
@@ -94,29 +97,31 @@ double GcsTranscription::CostOf(const std::vector<std::int32_t>& arcs,
 
 void GcsTranscription::WriteHints() {
   const auto count = static_cast<std::int32_t>(edges_.size());
+  lists_.Clear();
   for (std::int32_t a = 0; a < count; ++a) {
-    flow_.push_back(edges_[At(a)].phi);
-    arc_in_.push_back(a);
+    lists_.flow.push_back(edges_[At(a)].phi);
+    lists_.arc_in.push_back(a);
   }
-  scale_ = flow_;
-  arc_out_ = arc_in_;
+  lists_.scale = lists_.flow;
+  lists_.arc_out = lists_.arc_in;
   for (std::size_t k = 0; k < transitions_.size(); ++k) {
     if (transitions_[k].block < 0) continue;
-    scale_.push_back(transitions_[k].lambda);
-    arc_in_.push_back(plan_.all()[k].in);
-    arc_out_.push_back(plan_.all()[k].out);
+    lists_.scale.push_back(transitions_[k].lambda);
+    lists_.arc_in.push_back(plan_.all()[k].in);
+    lists_.arc_out.push_back(plan_.all()[k].out);
   }
   for (const GraphOfConvexSets::Vertex* v : graph_.vertices) {
-    dim_.push_back(v->ambient_dimension());
-    sets_.push_back(nullptr);
+    lists_.dim.push_back(v->ambient_dimension());
+    lists_.sets.push_back(nullptr);
   }
   for (std::size_t a = 0; a < edges_.size(); ++a) {
     for (const std::int32_t v : {graph_.tail[a], graph_.head[a]}) {
-      if (sets_[At(v)] == nullptr) sets_[At(v)] = written_.sets.Of(graph_.vertices[At(v)]->set());
+      if (lists_.sets[At(v)] == nullptr)
+        lists_.sets[At(v)] = written_.sets.Of(graph_.vertices[At(v)]->set());
     }
   }
-  WritePoints(true, tail_point_, paths_.tail_point);
-  WritePoints(false, head_point_, paths_.head_point);
+  WritePoints(true, lists_.tail_point, paths_.tail_point);
+  WritePoints(false, lists_.head_point, paths_.head_point);
   blocks_ = {sizeof blocks_,         p_.num_blocks(),         p_.block_of_x.data(),
              p_.block_of_row.data(), p_.block_of_cone.data(), nullptr};
   paths_.size = sizeof paths_;
@@ -126,12 +131,12 @@ void GcsTranscription::WriteHints() {
   paths_.target = graph_.target;
   paths_.tail = graph_.tail.data();
   paths_.head = graph_.head.data();
-  paths_.flow = flow_.data();
-  paths_.scale = scale_.data();
-  paths_.arc_in = arc_in_.data();
-  paths_.arc_out = arc_out_.data();
-  paths_.dim = dim_.data();
-  paths_.set = sets_.data();
+  paths_.flow = lists_.flow.data();
+  paths_.scale = lists_.scale.data();
+  paths_.arc_in = lists_.arc_in.data();
+  paths_.arc_out = lists_.arc_out.data();
+  paths_.dim = lists_.dim.data();
+  paths_.set = lists_.sets.data();
   hints_ = {{"sy.blocks/1", &blocks_}, {"sy.paths/1", &paths_}, {nullptr, nullptr}};
   problem_.Change([this](ProblemData& d) { d.hints = hints_.data(); });
 }

@@ -17,6 +17,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr const char* kRelaxAndRound = "org.switchyard.relax-and-round";
+constexpr const char* kBranchAndBound = "org.switchyard.branch-and-bound";
 constexpr int kPaths = 10;
 
 std::string NamesOf(const SolverInterface* solver) {
@@ -98,7 +99,7 @@ void Search::Transcribe() {
     } catch (...) {  // a path that is not listed is not lost: the answer is the strategy's
     }
   };
-  tags_ = TagsOf(pruned_, as_);
+  tags_ = transcription_->same_terms() ? TermTags() : TagsOf(pruned_, as_);
   const bool by_another =
       options_.restriction_solver != nullptr || options_.restriction_solver_options.has_value();
   if (!tags_.same || by_another) {
@@ -126,20 +127,33 @@ void Search::WarnOfUnbounded() {
   result().notes.push_back(Text("and ", unbounded.size() - kNamed, " more vertices like it"));
 }
 
-bool Search::Load() {
-  const auto start = Clock::now();
-  const bool strategy = as_ == Transcription::kRelaxation;
-  SolverOptions options = options_.solver_options;
-  options.seed = static_cast<std::uint64_t>(options_.rounding_seed);
-  if (strategy) {
+// Who is asked, with what options of its own. The integer program goes to a backend that was named
+// and takes it whole; else to branch and bound, over the one that was named.
+std::string Search::AskedFirst(SolverOptions& options) const {
+  const std::string named = NamesOf(options_.solver);
+  if (as_ == Transcription::kRelaxation) {
     auto& own = options.options[kRelaxAndRound];
-    own["solver"] = NamesOf(options_.solver);
+    own["solver"] = named;
     own["paths"] = options_.max_rounded_paths.value_or(kPaths);
     own["trials"] = options_.max_rounding_trials;
     own["flow_tolerance"] = options_.flow_tolerance;
+    return kRelaxAndRound;
   }
-  const BackendWish wish{
-      strategy ? kRelaxAndRound : NamesOf(options_.solver), &options, host_.table(), 0, {}};
+  if (host_.Find(kBranchAndBound) == nullptr) return named;
+  const auto ranked = host_.Rank(transcription_->problem().view(), named);
+  const bool takes_it = !named.empty() && std::any_of(ranked.begin(), ranked.end(),
+                                                      [](const auto& c) { return c.suitable; });
+  if (takes_it) return named;
+  if (!named.empty()) options.options[kBranchAndBound]["solver"] = named;
+  return kBranchAndBound;
+}
+
+bool Search::Load() {
+  const auto start = Clock::now();
+  SolverOptions options = options_.solver_options;
+  options.seed = static_cast<std::uint64_t>(options_.rounding_seed);
+  const std::string asked = AskedFirst(options);
+  const BackendWish wish{asked, &options, host_.table(), 0, {}};
   if (!options_.dump.empty()) WriteProblem(transcription_->problem().view(), options_.dump);
   choice_ = ChooseBackend(host_, transcription_->problem().view(), wish);
   result().considered = choice_.considered;

@@ -46,6 +46,7 @@ class Search {
   void Transcribe();
   void WarnOfUnbounded();
   bool Load();
+  [[nodiscard]] std::string AskedFirst(SolverOptions& options) const;
   void Solve();
   bool SolveOnce(const ProblemData& data);
   void SolveWhole();

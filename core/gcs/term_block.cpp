@@ -262,29 +262,37 @@ const std::vector<FixedCoordinate>& TermBlocks::Fixed(const Edge& e, bool ends) 
 }
 
 template <class List>
-void TermBlocks::Stamp(const List& terms, std::uint64_t& stamp) const {
+bool TermBlocks::Stamp(const List& terms, std::uint64_t& stamp) const {
+  bool same = true;
   for (const auto& term : terms) {
-    if (!term.in.contains(as_)) continue;
+    const bool here = term.in.contains(as_);
+    same &= here == term.in.contains(GraphOfConvexSets::Transcription::kRestriction);
+    if (!here) continue;
     const auto& evaluator = term.binding.evaluator();
     Mix(reinterpret_cast<std::uintptr_t>(evaluator.get()), stamp);
     Mix(evaluator->version(), stamp);
   }
+  return same;
 }
 
 const VertexBlocks& TermBlocks::Of(const Vertex& v) {
   const std::size_t at = At(v.id().value);
   if (at >= of_vertex_.size()) of_vertex_.resize(at + at / 2 + 1);
   std::uint64_t stamp = kBegin;
-  Stamp(v.costs(), stamp);
-  Stamp(v.constraints(), stamp);
+  const bool same_costs = Stamp(v.costs(), stamp), same_rows = Stamp(v.constraints(), stamp);
   VertexBlocks& blocks = of_vertex_[at];
+  blocks.same = same_costs && same_rows;
   if (blocks.stamp == stamp) return blocks;
   const SetBox& box = v.set().bounding_box();
   const bool open = !box.empty && !box.is_finite() && !v.constraints().empty();
   const OfSet& of_set = Membership(v);
   const bool grouped = box.is_finite() && of_set.block.num_own == 0;
-  return blocks = {&of_set.block, &Terms(v, true), open ? &Terms(v, false) : nullptr,
-                   grouped ? &of_set.group : nullptr, stamp};
+  return blocks = {&of_set.block,
+                   &Terms(v, true),
+                   open ? &Terms(v, false) : nullptr,
+                   grouped ? &of_set.group : nullptr,
+                   stamp,
+                   blocks.same};
 }
 
 const EdgeBlocks& TermBlocks::Of(const Edge& e, bool ends) {
@@ -297,12 +305,12 @@ const EdgeBlocks& TermBlocks::Of(const Edge& e, bool ends, std::uint64_t stamp_o
   const std::size_t at = At(e.id().value);
   if (at >= of_edge_.size()) of_edge_.resize(at + at / 2 + 1);
   std::uint64_t stamp = kBegin;
-  Stamp(e.costs(), stamp);
-  Stamp(e.constraints(), stamp);
+  const bool same_costs = Stamp(e.costs(), stamp), same_rows = Stamp(e.constraints(), stamp);
   Mix(static_cast<std::uint64_t>(e.slacks().size()), stamp);
   Mix(stamp_of_u, stamp);
   Mix(stamp_of_v, stamp);
-  if (of_edge_[at].stamp != stamp) of_edge_[at] = {&Terms(e), {nullptr, nullptr}, stamp};
+  if (of_edge_[at].stamp != stamp) of_edge_[at] = {&Terms(e), {nullptr, nullptr}, stamp, true};
+  of_edge_[at].same = same_costs && same_rows;
   if (of_edge_[at].fixed[ends ? 1 : 0] == nullptr) {
     of_edge_[at].fixed[ends ? 1 : 0] = &Fixed(e, ends);
   }

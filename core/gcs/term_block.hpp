@@ -68,6 +68,7 @@ struct VertexBlocks {
   /// number, from 0 on, are not told apart by its rows and cones. Else null.
   const std::vector<std::int32_t>* group = nullptr;
   std::uint64_t stamp = 0;  // of all that these follow from
+  bool same = true;         // are its terms those of the restriction?
 };
 
 /// What an edge asks for: places t, x_u, x_v, slacks.
@@ -77,6 +78,7 @@ struct EdgeBlocks {
   /// where the path ends there.
   const std::vector<FixedCoordinate>* fixed[2] = {nullptr, nullptr};
   std::uint64_t stamp = 0;
+  bool same = true;
 };
 
 /// The blocks of one transcription of a graph: written once for all that have the same terms, and
@@ -114,8 +116,9 @@ class TermBlocks {
   const TermBlock& Terms(const Vertex& v, bool costs);
   const TermBlock& Terms(const Edge& e);
   const std::vector<FixedCoordinate>& Fixed(const Edge& e, bool ends);
+  /// Says, too, whether each term is in this transcription and in the restriction, or in neither.
   template <class List>
-  void Stamp(const List& terms, std::uint64_t& stamp) const;
+  [[nodiscard]] bool Stamp(const List& terms, std::uint64_t& stamp) const;
   template <class Owner, class PlaceOf>
   const TermBlock& Find(const Owner& owner, bool costs, std::int32_t num_places,
                         PlaceOf&& place_of);

@@ -23,10 +23,10 @@ GcsTranscription::GcsTranscription(const PrunedGraph& graph, Transcription as, b
       plan_(graph, transitions),
       point_(graph.vertices.size()),
       edges_(graph.edges.size()),
-      transitions_(plan_.all().size()) {
+      transitions_(plan_.all().size()),
+      lists_(written_.lists) {
   FindBlocks();
-  std::swap(written_.programs.now, written_.programs.before);
-  p_.Clear();
+  written_.BeginNext();
   WriteBlocks();
   PlaceBlocks();
   WriteCoupling();
@@ -37,15 +37,18 @@ GcsTranscription::GcsTranscription(const PrunedGraph& graph, Transcription as, b
 void GcsTranscription::FindBlocks() {
   TermBlocks& blocks = written_.blocks;
   blocks_of_vertex_.resize(graph_.vertices.size());
+  blocks_of_edge_.reserve(edges_.size());
   for (std::size_t a = 0; a < edges_.size(); ++a) {
     for (const std::int32_t v : {graph_.tail[a], graph_.head[a]}) {
       if (blocks_of_vertex_[At(v)].set != nullptr) continue;
       point_[At(v)] = graph_.vertices[At(v)]->set().MaybeGetPoint();
       blocks_of_vertex_[At(v)] = blocks.Of(*graph_.vertices[At(v)]);
+      same_terms_ &= blocks_of_vertex_[At(v)].same;
     }
     blocks_of_edge_.push_back(blocks.Of(*graph_.edges[a], graph_.head[a] == graph_.target,
                                         blocks_of_vertex_[At(graph_.tail[a])].stamp,
                                         blocks_of_vertex_[At(graph_.head[a])].stamp));
+    same_terms_ &= blocks_of_edge_.back().same;
   }
   idle_.emplace(graph_, plan_, blocks_of_vertex_, blocks_of_edge_);
 }
@@ -480,16 +483,10 @@ void GcsTranscription::Finish() {
     d.flags = SY_PROBLEM_CONVEX;
     d.num_vars = static_cast<std::int32_t>(p_.q.size());
     d.P = Csc(d.num_vars, d.num_vars);
-    d.q = p_.q;
-    d.x_lower = p_.x_lower;
-    d.x_upper = p_.x_upper;
-    d.integer = p_.integer;
     p_.A.WriteByColumns(d.num_vars, d.A);
-    d.row_lower = p_.row_lower;
-    d.row_upper = p_.row_upper;
     p_.F.WriteByColumns(d.num_vars, d.F);
     d.g.assign(At(p_.F.rows()), 0.0);
-    d.cones = p_.cones;
+    written_.SwapLists(d);
   });
 }
 

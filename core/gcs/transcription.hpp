@@ -8,27 +8,15 @@
 #include <span>
 #include <vector>
 
-#include "core/gcs/block_program.hpp"
 #include "core/gcs/fixed_ends.hpp"
 #include "core/gcs/idle_heads.hpp"
 #include "core/gcs/pruning.hpp"
-#include "core/gcs/set_records.hpp"
 #include "core/gcs/term_block.hpp"
 #include "core/gcs/transitions.hpp"
+#include "core/gcs/written_program.hpp"
 #include "switchyard/hints.h"
 
 namespace switchyard {
-
-/// What one transcription of a graph leaves to the next: blocks of terms, and the program, of which
-/// what is the same is copied. Stays in place while the transcription does.
-struct WrittenProgram {
-  explicit WrittenProgram(GraphOfConvexSets::Transcription as) : blocks(as) {}
-
-  TermBlocks blocks;
-  BlockPrograms programs;
-  Problem problem;  // the last one
-  SetRecords sets;
-};
 
 /// The program of a pruned graph, lean: no rows for two-cycles, linear costs in the objective, one
 /// rotated cone for the squares of a block, nothing for edges that are on no path.
@@ -62,6 +50,8 @@ class GcsTranscription {
   GcsTranscription& operator=(const GcsTranscription&) = delete;
 
   [[nodiscard]] const Problem& problem() const { return problem_; }
+  /// Are its terms those of the restrictions to its paths?
+  [[nodiscard]] bool same_terms() const { return same_terms_; }
   /// The variable of an arc's flow, and the first of its slacks; -1: it has none.
   [[nodiscard]] std::int32_t flow(std::size_t arc) const { return edges_[arc].phi; }
   [[nodiscard]] std::int32_t slack(std::size_t arc) const { return edges_[arc].slack; }
@@ -150,6 +140,7 @@ class GcsTranscription {
   Problem& problem_;
   std::vector<VertexBlocks> blocks_of_vertex_;
   std::vector<EdgeBlocks> blocks_of_edge_;  // by arc
+  bool same_terms_ = true;
   TransitionPlan plan_;
   std::optional<IdleHeads> idle_;
   std::optional<Leaving> out_;
@@ -162,9 +153,7 @@ class GcsTranscription {
   std::vector<std::size_t> square_end_;  // of each row
 
   std::int32_t block_ = -1;  // at hand
-  std::vector<std::int32_t> flow_, scale_, arc_in_, arc_out_, dim_;
-  Csc tail_point_, head_point_;
-  std::vector<const sy_set*> sets_;
+  PathLists& lists_;
   sy_blocks blocks_{};
   sy_paths paths_{};
   std::vector<sy_hint> hints_;

@@ -31,12 +31,12 @@ class RowMatrix {
     if (value == 0) return;
     const auto j = static_cast<std::size_t>(column);
     if (j >= last_.size()) last_.resize(2 * j + 16, -1);
-    const std::int32_t begin = by_rows_.start[by_rows_.start.size() - 2];
+    const std::int64_t begin = cleared_ + by_rows_.start[by_rows_.start.size() - 2];
     if (last_[j] >= begin) {
-      by_rows_.value[static_cast<std::size_t>(last_[j])] += value;
+      by_rows_.value[static_cast<std::size_t>(last_[j] - cleared_)] += value;
       return;
     }
-    last_[j] = by_rows_.start.back()++;
+    last_[j] = cleared_ + by_rows_.start.back()++;
     by_rows_.row.push_back(column);
     by_rows_.value.push_back(value);
   }
@@ -64,11 +64,11 @@ class RowMatrix {
   }
   /// No rows; the memory stays.
   void Clear() {
+    cleared_ += by_rows_.start.back();
     by_rows_.start.assign(1, 0);
     by_rows_.row.clear();
     by_rows_.value.clear();
     by_rows_.cols = 0;
-    std::fill(last_.begin(), last_.end(), -1);
   }
   [[nodiscard]] std::int32_t rows() const { return by_rows_.cols; }
   /// The columns of the row that was begun last, and their values.
@@ -98,7 +98,8 @@ class RowMatrix {
   [[nodiscard]] std::size_t End() const { return static_cast<std::size_t>(by_rows_.start.back()); }
 
   Csc by_rows_;                     // the transpose: a column for each row
-  std::vector<std::int32_t> last_;  // where each column's last entry is
+  std::vector<std::int64_t> last_;  // where each column's last entry is, behind all cleared ones
+  std::int64_t cleared_ = 0;        // entries there were
 };
 
 }  // namespace switchyard

@@ -93,21 +93,31 @@ std::vector<std::int32_t> ArcOfScaledBlocks(const sy_paths& paths, std::int32_t 
   return arc;
 }
 
-/// For each row, whether it is of nonnegative terms and has a positive upper side.
-std::vector<std::uint8_t> RowsThatBound(const sy_problem& p) {
-  std::vector<std::uint8_t> bounds(At(p.num_rows), 0);
-  if (p.A == nullptr || p.row_upper == nullptr) return bounds;
-  for (std::size_t i = 0; i < bounds.size(); ++i) {
-    bounds[i] = p.row_upper[i] > 0 && p.row_upper[i] < kInfinity ? 1 : 0;
+/// Rows of nonnegative terms that have a positive upper side, by row, and the first that may be
+/// one.
+struct BoundingRows {
+  std::vector<std::uint8_t> is;
+  std::int32_t first = 0;
+};
+
+/// Rows of scaled blocks, which are most and come first, have sides of 0.
+BoundingRows RowsThatBound(const sy_problem& p) {
+  BoundingRows rows{std::vector<std::uint8_t>(At(p.num_rows), 0), p.num_rows};
+  if (p.A == nullptr || p.row_upper == nullptr) return rows;
+  for (std::int32_t i = p.num_rows - 1; i >= 0; --i) {
+    if (!(p.row_upper[i] > 0 && p.row_upper[i] < kInfinity)) continue;
+    rows.is[At(i)] = 1;
+    rows.first = i;
   }
   for (std::int32_t j = 0; j < p.num_vars; ++j) {
     const bool column = LowerOf(p, j) >= 0;
-    for (std::int32_t k = p.A->start[j]; k < p.A->start[j + 1]; ++k) {
-      std::uint8_t& row = bounds[At(p.A->row[k])];
+    for (std::int32_t k = p.A->start[j + 1] - 1; k >= p.A->start[j]; --k) {
+      if (p.A->row[k] < rows.first) break;
+      std::uint8_t& row = rows.is[At(p.A->row[k])];
       if (row != 0 && (!column || p.A->value[k] < 0)) row = 0;
     }
   }
-  return bounds;
+  return rows;
 }
 
 }  // namespace
@@ -200,7 +210,7 @@ void PathProblem::Relax() {
   for (std::int32_t b = 0; b < blocks_.num_blocks; ++b) {
     if (paths_.scale[b] >= 0) scales[At(paths_.scale[b])] = 1;
   }
-  const std::vector<std::uint8_t> bounding = RowsThatBound(p);
+  const BoundingRows bounding = RowsThatBound(p);
   for (std::int32_t j = 0; j < p.num_vars; ++j) {
     const std::int32_t block = blocks_.x[j];
     const bool implied = block >= 0 && paths_.scale[block] >= 0 && scales[At(j)] == 0;
@@ -208,9 +218,10 @@ void PathProblem::Relax() {
     r.x_upper[At(j)] = implied ? kInfinity : UpperOf(p, j);
     if (scales[At(j)] == 0 || p.A == nullptr) continue;
     if (!(LowerOf(p, j) < UpperOf(p, j))) continue;
-    for (std::int32_t k = p.A->start[j]; k < p.A->start[j + 1]; ++k) {
+    for (std::int32_t k = p.A->start[j + 1] - 1; k >= p.A->start[j]; --k) {
       const std::int32_t i = p.A->row[k];
-      const bool bounds = bounding[At(i)] != 0 && p.A->value[k] > 0;
+      if (i < bounding.first) break;
+      const bool bounds = bounding.is[At(i)] != 0 && p.A->value[k] > 0;
       if (bounds && p.row_upper[i] <= p.A->value[k] * UpperOf(p, j)) r.x_upper[At(j)] = kInfinity;
     }
   }
