@@ -29,14 +29,14 @@ bool Point::Complete(const sy_problem& p) const {
          (!HasConstraints(p) || Known(nlp_dual, p.nlp->num_constraints));
 }
 
-Program::Program(const sy_problem& problem, Functions& functions, const Point& start,
-                 linear::Watch& watch, const Setting& setting)
+Program::Program(const sy_problem& problem, const Shape& shape, Functions& functions,
+                 const Point& start, linear::Watch& watch, const Setting& setting)
     : p_(problem),
+      shape_(shape),
       functions_(functions),
       start_(start),
       watch_(watch),
       setting_(setting),
-      shape_(problem, setting.uses_hessian),
       activity_(static_cast<std::size_t>(problem.num_rows)),
       multipliers_(HasConstraints(problem) ? std::size_t(problem.nlp->num_constraints) : 0) {}
 
@@ -76,9 +76,8 @@ bool Program::get_bounds_info(Index n, Number* x_l, Number* x_u, Index, Number* 
     x_l[j] += below;
     x_u[j] -= above;
   }
-  const bool loosens_equations = shape_.equations > shape_.unfixed;
   ForEachConstraint([&](Index k, double lower, double upper, std::size_t, bool) {
-    const bool loosened = loosens_equations && lower == upper;
+    const bool loosened = shape_.loosens_equations() && lower == upper;
     const double width = loosened ? kLoose * std::max(1.0, std::abs(lower)) : 0;
     g_l[k] = lower - width;
     g_u[k] = upper + width;

@@ -33,7 +33,6 @@ struct Found {
 struct Setting {
   std::int64_t before = 0;  // iterations of earlier runs
   double widening = 0;      // of all sides by Ipopt, relative
-  bool uses_hessian = true;
 };
 
 /// The linear rows and the quadratic objective are data and never asked of the functions. With row
@@ -43,9 +42,9 @@ class Program : public Ipopt::TNLP {
   using Index = Ipopt::Index;
   using Number = Ipopt::Number;
 
-  /// Borrows all but the setting; the problem has all its bounds and q.
-  Program(const sy_problem& problem, Functions& functions, const Point& start, linear::Watch& watch,
-          const Setting& setting);
+  /// Borrows all but the setting; the problem has all its bounds and q, and `shape` is its own.
+  Program(const sy_problem& problem, const Shape& shape, Functions& functions, const Point& start,
+          linear::Watch& watch, const Setting& setting);
 
   bool get_nlp_info(Index& n, Index& m, Index& jacobian, Index& hessian,
                     IndexStyleEnum& style) override;
@@ -79,11 +78,11 @@ class Program : public Ipopt::TNLP {
   void ForEachConstraint(Visit&& visit) const;
 
   const sy_problem& p_;
+  const Shape& shape_;
   Functions& functions_;
   const Point& start_;
   linear::Watch& watch_;
   const Setting setting_;
-  const Shape shape_;
   std::vector<Number> activity_;     // of all rows
   std::vector<Number> multipliers_;  // of all of c
   Found found_;

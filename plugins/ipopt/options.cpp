@@ -21,6 +21,9 @@ constexpr const char* kYesNo[] = {"yes", "no", nullptr};
 constexpr const char* kHessians[] = {"exact", "limited-memory", nullptr};
 constexpr const char* kScalings[] = {"gradient-based", "none", "equilibration-based", nullptr};
 
+constexpr const char* kForms[] = {"auto", "condensed", "augmented", nullptr};
+constexpr const char* kFormName = "kkt";
+
 constexpr double kLeast = 1e-300;  // for what must be positive
 constexpr double kMost = std::numeric_limits<double>::max();
 constexpr double kMostInteger = std::numeric_limits<Ipopt::Index>::max();
@@ -61,6 +64,10 @@ constexpr std::array kOptions = {
                "An entry of the point this large ends the solve, and a ray is looked for"),
     IntegerOption("max_refinement_steps", 10, 0, kMostInteger,
                   "Rounds of iterative refinement of a linear system"),
+    WordOption(kFormName, kForms,
+               "Linear systems: condensed, without slacks and inequality multipliers, by a "
+               "factorization of the plugin's own; or augmented, by Ipopt's linear_solver; auto: "
+               "condensed where that is predicted to be cheaper"),
     IntegerOption("print_level", 0, 0, 12, "Detail of the log, over the host's verbosity"),
 };
 
@@ -138,6 +145,14 @@ void Options::Set(std::string_view name, const sy_value& value) {
   chosen_[std::string(name)] = held;
 }
 
+KktForm Options::Form() const {
+  const auto held = chosen_.find(kFormName);
+  const std::string& word = held != chosen_.end() ? held->second.text : kForms[0];
+  if (word == "auto")
+    return chosen_.contains("linear_solver") ? KktForm::kAugmented : KktForm::kAuto;
+  return word == "condensed" ? KktForm::kCondensed : KktForm::kAugmented;
+}
+
 double Options::Real(std::string_view name) const {
   const auto held = chosen_.find(name);
   return held != chosen_.end() ? held->second.number : linear::Number(Listed(name)->fallback);
@@ -197,8 +212,23 @@ void Options::GiveDerivatives(const Derivatives& derivatives, Ipopt::OptionsList
   to.SetStringValue("hessian_constant", word(derivatives.constant_hessian && uses_hessian));
 }
 
+// A bound of 1e-6 is what MUMPS is given by Ipopt, too; Ipopt raises it where a solution is not
+// accurate. The systems are scaled and refined by their own solver.
+void Options::GiveKkt(const KktPlan& kkt, Ipopt::OptionsList& to) {
+  if (kkt.condensed) {
+    to.SetStringValue("linear_solver", "ma27");
+    to.SetStringValue("linear_system_scaling", "none");
+    to.SetNumericValue("ma27_pivtol", 1e-6);
+    to.SetNumericValue("ma27_pivtolmax", 0.1);
+    to.SetIntegerValue("min_refinement_steps", 0);
+  } else if (kkt.has_dense_column) {
+    constexpr Ipopt::Index kMinimumDegreeWithDenseColumnsApart = 6;
+    to.SetIntegerValue("mumps_pivot_order", kMinimumDegreeWithDenseColumnsApart);
+  }
+}
+
 void Options::Give(const sy_control& control, Way way, const Derivatives& derivatives,
-                   Ipopt::OptionsList& to) const {
+                   const KktPlan& kkt, Ipopt::OptionsList& to) const {
   to.SetIntegerValue("acceptable_iter", 0);
   for (const char* name : {"constr_viol_tol", "dual_inf_tol", "compl_inf_tol", "bound_relax_factor",
                            "diverging_iterates_tol"}) {
@@ -221,9 +251,12 @@ void Options::Give(const sy_control& control, Way way, const Derivatives& deriva
                                     : control.verbosity <= 2 ? Ipopt::J_ITERSUMMARY
                                                              : Ipopt::J_DETAILED);
   GiveDerivatives(derivatives, to);
+  GiveKkt(kkt, to);
   to.SetStringValue("honor_original_bounds", "no");  // the plugin moves the last point into them
   to.SetStringValue("sb", "yes");                    // no banner
-  for (const auto& [name, held] : chosen_) Put(name, held, to);
+  for (const auto& [name, held] : chosen_) {
+    if (name != kFormName) Put(name, held, to);
+  }
 }
 
 }  // namespace switchyard::ipopt

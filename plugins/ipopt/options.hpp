@@ -27,14 +27,24 @@ struct Derivatives {
   bool has_hessian = true;
 };
 
+/// In which form linear systems are solved: see kkt_choice.hpp.
+enum class KktForm { kAuto, kCondensed, kAugmented };
+struct KktPlan {
+  bool condensed = false;
+  bool has_dense_column = false;
+};
+
 class Options {
  public:
   /// Throws Failure: an unknown name, another type, a value out of range.
   void Set(std::string_view name, const sy_value& value);
 
   /// What one solve runs with: the user's choice, else the host's, else the default of the table.
-  void Give(const sy_control& control, Way way, const Derivatives& derivatives,
+  void Give(const sy_control& control, Way way, const Derivatives& derivatives, const KktPlan& kkt,
             Ipopt::OptionsList& to) const;
+
+  /// What the user wants of the option kkt. One who names a linear solver means Ipopt's.
+  [[nodiscard]] KktForm Form() const;
 
   /// Are second derivatives asked for? Else Ipopt approximates them. Throws Failure where the user
   /// wants them and there are none.
@@ -53,6 +63,7 @@ class Options {
   };
 
   static void GiveWay(Way way, Ipopt::OptionsList& to);
+  static void GiveKkt(const KktPlan& kkt, Ipopt::OptionsList& to);
   void GiveDerivatives(const Derivatives& derivatives, Ipopt::OptionsList& to) const;
   static void Put(const std::string& name, const Held& held, Ipopt::OptionsList& to);
 

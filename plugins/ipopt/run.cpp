@@ -7,6 +7,9 @@
 #include <vector>
 
 #include "host_journal.hpp"
+#include "kkt_choice.hpp"
+#include "kkt_slot.hpp"
+#include "shape.hpp"
 #include "switchyard/plugin.hpp"
 
 namespace switchyard::ipopt {
@@ -35,22 +38,28 @@ Derivatives DerivativesOf(const sy_problem& p) {
   return d;
 }
 
-Found RunOnce(const sy_problem& problem, Functions& functions, const Point& start, Way way,
+/// A program, and how it is given to Ipopt.
+struct Given {
+  const sy_problem& problem;
+  const Shape& shape;
+  const Derivatives& derivatives;
+  const Point& start;
+};
+
+Found RunOnce(const Given& given, Functions& functions, Way way, const KktPlan& kkt,
               const Session& session, std::int64_t before) {
   constexpr bool kConsole = false;
   Ipopt::SmartPtr<Ipopt::IpoptApplication> solver = new Ipopt::IpoptApplication(kConsole);
   Ipopt::SmartPtr<Ipopt::Journal> journal = new HostJournal(session.host);
   solver->Jnlst()->AddJournal(journal);
-  const Derivatives derivatives = DerivativesOf(problem);
-  session.options.Give(session.watch.control(), way, derivatives, *solver->Options());
-  const Setting setting = {before, session.options.Real("bound_relax_factor"),
-                           session.options.UsesHessian(derivatives)};
+  session.options.Give(session.watch.control(), way, given.derivatives, kkt, *solver->Options());
+  const Setting setting = {before, session.options.Real("bound_relax_factor")};
   std::istringstream no_file;  // else Ipopt reads the ipopt.opt of the folder it is run in
   Found found;
   found.status = solver->Initialize(no_file);
   if (found.status == Ipopt::Solve_Succeeded) {
     Ipopt::SmartPtr<Program> program =
-        new Program(problem, functions, start, session.watch, setting);
+        new Program(given.problem, given.shape, functions, given.start, session.watch, setting);
     const auto status = solver->OptimizeTNLP(Ipopt::GetRawPtr(program));
     found = program->found();
     found.status = status;
@@ -62,6 +71,34 @@ Found RunOnce(const sy_problem& problem, Functions& functions, const Point& star
 bool IsLimit(Ipopt::ApplicationReturnStatus status, Way way) {
   return status == Ipopt::Maximum_CpuTime_Exceeded ||
          (status == Ipopt::Maximum_Iterations_Exceeded && way != Way::kFullSteps);
+}
+
+bool IsOver(const Found& found, Way way, const Functions& functions, const Session& session) {
+  return found.status == Ipopt::Solve_Succeeded || IsLimit(found.status, way) ||
+         functions.ended() || session.watch.reason() != SY_NOT_SOLVED;
+}
+
+/// Where a condensed system could not be trusted, the run starts over with the augmented ones, and
+/// so do later runs.
+Found RunKkt(const Given& given, Functions& functions, Way way, const CondensedKkt::Counts& counts,
+             KktPlan& kkt, const Session& session, std::int64_t before) {
+  std::int64_t iterations = 0;
+  if (kkt.condensed) {
+    const KktSlot slot(counts);
+    Found found = RunOnce(given, functions, way, kkt, session, before);
+    if (!slot.failed() || IsOver(found, way, functions, session)) return found;
+    iterations = found.iterations;
+    kkt.condensed = false;
+  }
+  Found found = RunOnce(given, functions, way, kkt, session, before + iterations);
+  found.iterations += iterations;
+  return found;
+}
+
+KktPlan PlanOf(KktForm form, const KktShape& shape) {
+  const bool wanted =
+      form == KktForm::kCondensed || (form == KktForm::kAuto && shape.condensed_is_cheaper);
+  return {wanted && KktSlot::IsOpen(), shape.has_dense_column};
 }
 
 std::vector<Way> Ways(const sy_problem& p, const Point& start, const Options& options) {
@@ -78,10 +115,15 @@ std::vector<Way> Ways(const sy_problem& p, const Point& start, const Options& op
 // with whatever its algorithm was in.
 Found Run(const sy_problem& problem, Functions& functions, const Point& start,
           const Session& session, std::int64_t before) {
+  const Derivatives derivatives = DerivativesOf(problem);
+  const Shape shape(problem, session.options.UsesHessian(derivatives));
+  const KktShape kkt_shape = KktShapeOf(problem, shape);
+  KktPlan kkt = PlanOf(session.options.Form(), kkt_shape);
+  const Given given = {problem, shape, derivatives, start};
   Found found;
   std::int64_t iterations = 0;
   for (const Way way : Ways(problem, start, session.options)) {
-    found = RunOnce(problem, functions, start, way, session, before + iterations);
+    found = RunKkt(given, functions, way, kkt_shape.counts, kkt, session, before + iterations);
     iterations += found.iterations;
     if (found.status == Ipopt::Solve_Succeeded || IsLimit(found.status, way)) break;
     if (functions.ended() || session.watch.reason() != SY_NOT_SOLVED) {

@@ -73,7 +73,7 @@ Shape::Shape(const sy_problem& problem, bool uses_hessian)
 
 void Shape::PlaceRows(const sy_problem& p) {
   const auto place = PlacesOf(rows, p.num_rows, 0);
-  for (const std::int32_t i : rows) equations += p.row_lower[i] == p.row_upper[i] ? 1 : 0;
+  for (const std::int32_t i : rows) Count(p.row_lower[i], p.row_upper[i]);
   for (std::int32_t j = 0; !rows.empty() && j < p.num_vars; ++j) {
     for (std::int32_t k = p.A->start[j]; k < p.A->start[j + 1]; ++k) {
       const std::int32_t to = place[static_cast<std::size_t>(p.A->row[k])];
@@ -89,7 +89,7 @@ void Shape::PlaceConstraints(const sy_problem& p) {
   const sy_nlp& nlp = *p.nlp;
   const auto place =
       PlacesOf(constraints, nlp.num_constraints, static_cast<std::int32_t>(rows.size()));
-  for (const std::int32_t i : constraints) equations += nlp.lower[i] == nlp.upper[i] ? 1 : 0;
+  for (const std::int32_t i : constraints) Count(nlp.lower[i], nlp.upper[i]);
   for (std::int32_t j = 0; j < p.num_vars; ++j) {
     for (std::int32_t k = nlp.jacobian.start[j]; k < nlp.jacobian.start[j + 1]; ++k) {
       const std::int32_t to = place[static_cast<std::size_t>(nlp.jacobian.row[k])];

@@ -33,10 +33,19 @@ struct Shape {
   std::vector<double> row_values;         // of the entries of the linear rows
   std::vector<std::int32_t> entries;      // in nlp->jacobian, of those of c
   Places hessian;                         // lower triangle: of P, then of the nlp
-  std::int32_t equations = 0;             // among the constraints
+  std::vector<std::uint8_t> is_equation;  // of each of Ipopt's constraints
+  std::int32_t equations = 0;             // among them
   std::int32_t unfixed = 0;               // variables
 
+  /// Ipopt takes no more equations than variables: where there are, they are loosened a little and
+  /// are none to it.
+  [[nodiscard]] bool loosens_equations() const { return equations > unfixed; }
+
  private:
+  void Count(double lower, double upper) {
+    is_equation.push_back(lower == upper ? 1 : 0);
+    equations += is_equation.back();
+  }
   void PlaceRows(const sy_problem& problem);
   void PlaceConstraints(const sy_problem& problem);
 };
