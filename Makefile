@@ -9,7 +9,7 @@ CTEST := ctest --test-dir $(BUILD) --output-on-failure --timeout 600
 help: ## show this list
 	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "  make %-9s %s\n", $$1, $$2}' Makefile
 
-setup: ## install what the build needs (system packages, HiGHS from PyPI)
+setup: ## install what the build needs (system packages, HiGHS and Pinocchio from PyPI)
 	@scripts/setup --retry
 
 ready:

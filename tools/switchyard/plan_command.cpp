@@ -23,6 +23,7 @@ struct PlanOptions {
   SolveOptions solve;
   bool relaxation = false;
   bool round = false;  // the default, so that scripts can say it
+  bool exact = false;
   int paths = kPaths;
   std::string nonlinear;
   std::string picture;
@@ -45,14 +46,23 @@ void PlanOptions::AddTo(CLI::App& command) {
   command.get_option("--solution")->description("Write points and flows by name, as JSON");
   CLI::Option* only = command.add_flag("--relaxation", relaxation,
                                        "Solve the convex relaxation alone: a bound, no path");
-  command
-      .add_flag("--round", round,
-                "Solve the relaxation, sample paths from its flow and solve each (default)")
-      ->excludes(only);
+  CLI::Option* rounding =
+      command
+          .add_flag("--round", round,
+                    "Solve the relaxation, sample paths from its flow and solve each (default)")
+          ->excludes(only);
+  CLI::Option* to_the_gap = command
+                                .add_flag("--exact", exact,
+                                          "Branch and bound until the best path is proven to be "
+                                          "within the gap; a named backend that takes the whole "
+                                          "integer program replaces it")
+                                ->excludes(only)
+                                ->excludes(rounding);
   command.add_option("--dump", solve.dump, "Write the transcribed problem to this file");
   command.add_option("--paths", paths, "Distinct paths to try at most (default 10)")
       ->check(CLI::Range(1, 100000))
-      ->excludes(only);
+      ->excludes(only)
+      ->excludes(to_the_gap);
   command
       .add_option("--nonlinear", nonlinear,
                   "The backend of the paths' restrictions, which may be nonlinear (default: as "
@@ -84,7 +94,7 @@ void CheckSolver(const char* option, const std::string& names, const Host& host)
 GraphOfConvexSetsOptions ForSearch(const PlanOptions& options, const SolverInterface& solver,
                                    const SolverOptions& given) {
   GraphOfConvexSetsOptions search;
-  search.convex_relaxation = true;
+  search.convex_relaxation = !options.exact;
   search.max_rounded_paths = options.relaxation ? 0 : options.paths;
   constexpr auto kMost = static_cast<std::uint64_t>(std::numeric_limits<int>::max());
   Require(given.seed <= kMost, "plan: --seed needs 0 to ", kMost, ", got ", given.seed);

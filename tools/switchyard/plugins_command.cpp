@@ -2,9 +2,12 @@
 
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 #include "commands.hpp"
 #include "describe.hpp"
+#include "switchyard/dynamics.h"
 #include "switchyard/error.hpp"
 #include "switchyard/host/host.hpp"
 
@@ -12,6 +15,20 @@ namespace switchyard::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+// Tables that are no solvers: rigid-body dynamics.
+struct Engine {
+  std::string name, version, plugin, file;
+};
+
+std::vector<Engine> DynamicsEngines(const Host& host) {
+  std::vector<Engine> engines;
+  for (const PluginTable& found : host.Tables("sy.dynamics/1")) {
+    const auto& table = *static_cast<const sy_dynamics*>(found.table);
+    engines.push_back({table.name, table.version, found.plugin, found.origin});
+  }
+  return engines;
+}
 
 Json ListAsJson(const Host& host) {
   Json solvers = Json::array();
@@ -32,7 +49,17 @@ Json ListAsJson(const Host& host) {
     problems.push_back(
         {{"file", problem.path}, {"state", to_string(problem.state)}, {"reason", problem.reason}});
   }
-  return {{"solvers", solvers}, {"problems", problems}, {"folders", host.folders()}};
+  Json dynamics = Json::array();
+  for (const Engine& engine : DynamicsEngines(host)) {
+    dynamics.push_back({{"name", engine.name},
+                        {"version", engine.version},
+                        {"plugin", engine.plugin},
+                        {"file", engine.file}});
+  }
+  return {{"solvers", solvers},
+          {"dynamics", dynamics},
+          {"problems", problems},
+          {"folders", host.folders()}};
 }
 
 void List(const Host& host) {
@@ -41,6 +68,9 @@ void List(const Host& host) {
     std::cout << fmt::format("{:<16} {:<10} {:<9} {}\n", backend->short_name, ready.version,
                              ready.ready ? "ready" : "not ready", ProblemClasses(backend->facts));
     if (!ready.ready) std::cout << fmt::format("{:<16} {}\n", "", ready.text);
+  }
+  for (const Engine& engine : DynamicsEngines(host)) {
+    std::cout << fmt::format("dynamics: {} {} ({})\n", engine.name, engine.version, engine.file);
   }
   if (host.backends().empty()) std::cout << "no backend was found in\n";
   for (const std::string& folder : host.folders()) {
@@ -120,16 +150,22 @@ int Doctor(const std::string& file) {
     std::cout << fmt::format("{} {}: {} ({})\n", backend->id, ready.version,
                              ready.ready ? "ready" : "not ready: " + ready.text, backend->origin);
   }
+  const std::vector<Engine> engines = DynamicsEngines(host);
+  for (const Engine& engine : engines) {
+    std::cout << fmt::format("dynamics: {} {}: ready ({})\n", engine.name, engine.version,
+                             engine.file);
+  }
   for (const PluginProblem& problem : host.problems()) {
     healthy = false;
     std::cout << fmt::format("{}: {}: {}\n    {}\n", problem.path, to_string(problem.state),
                              problem.reason, WhatToDo(problem));
   }
   for (const std::string& folder : host.folders()) std::cout << "searched " << folder << '\n';
-  if (host.backends().empty()) {
+  const bool found = !host.backends().empty() || (!file.empty() && !engines.empty());
+  if (!found) {
     std::cout << "no backend was found; set SWITCHYARD_PLUGIN_PATH, or give --plugin FILE.so\n";
   }
-  return healthy && !host.backends().empty() ? kAnswered : kNotAnswered;
+  return healthy && found ? kAnswered : kNotAnswered;
 }
 
 }  // namespace
