@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "switchyard/trajectory/efforts.hpp"
 #include "switchyard/trajectory/kinematic_trajectory_optimization.hpp"
 
 namespace switchyard {
@@ -10,6 +11,8 @@ namespace {
 
 // Of the guess: a duration that is not above this share of it vanishes.
 constexpr double kVanishing = 1e-9;
+// Times at which efforts are verified, for each control point.
+constexpr int kEffortSamples = 20;
 
 std::string WordsOfVanishing(double duration, double guess) {
   return Text("the duration vanishes: ", duration, " s, where the guess has ", guess, " s");
@@ -68,6 +71,12 @@ KinematicTrajectory KinematicTrajectoryOptimization::FindTrajectory(
   }
   found.trajectory = ReconstructTrajectory(found.result);
   found.bound_violation = BoundViolation(found.result);
+  for (const EffortBound& bound : effort_bounds_) {
+    found.effort_violation = std::max(
+        found.effort_violation, EffortViolation(bound.model, *found.trajectory, bound.lower,
+                                                bound.upper, kEffortSamples * num_control_points())
+                                    .amount);
+  }
   return found;
 }
 

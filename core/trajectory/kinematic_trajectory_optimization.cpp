@@ -47,9 +47,6 @@ KinematicTrajectoryOptimization::KinematicTrajectoryOptimization(int num_positio
   program_.AddBoundingBoxConstraint(0, kInfinity, duration_);
   program_.SetInitialGuess(duration_, duration);
   program_.SetInitialGuess(control_points_, Eigen::VectorXd::Zero(control_points_.size()));
-  // All rows of derivatives have T: orderings that do not set such a dense column apart fill the
-  // factors, at 200 control points a hundredfold. 6: approximate minimum degree that does.
-  program_.SetSolverOption(SolverId("ipopt"), "mumps_pivot_order", 6);
   Variable::Id next = NewVariableIds(std::int64_t{3} * num_positions);
   for (const char* name : {"q", "qdot", "qddot"}) {
     names_.push_back(std::make_shared<const NameBlock>(NameBlock::Shaped(name, num_positions, 0)));

@@ -3,11 +3,10 @@
 // rest at both ends.
 //
 //   arm [PICTURE.svg]
-#include <Eigen/QR>
 #include <iostream>
 
+#include "examples/trajectories/around.hpp"
 #include "examples/trajectories/svg.hpp"
-#include "switchyard/sets/hpolyhedron.hpp"
 #include "switchyard/sets/point.hpp"
 #include "switchyard/trajectory/gcs_trajectory_optimization.hpp"
 
@@ -29,30 +28,6 @@ const Pose kLeftBin = PoseOf({-1.2, 0.8, 0, -1.4, 0.2, 1.1, 0});
 const Pose kRightBin = PoseOf({1.2, 0.8, 0, -1.4, -0.2, 1.1, 0});
 const Pose kAboveShelf = PoseOf({0, 0.2, 0, -2.1, 0, 1.2, 1.5});
 const Pose kTopShelf = PoseOf({0.1, 0.6, 0.1, -1.0, 0.1, 1.0, 1.6});
-
-/// The polytope around the move from one pose to another: along it, and `width` radians to each
-/// side of it in all directions across, tapered towards the second pose.
-HPolyhedron Around(const Pose& from, const Pose& to, double width) {
-  const Pose along = (to - from).normalized();
-  const double length = (to - from).norm();
-  const Eigen::MatrixXd basis =
-      Eigen::HouseholderQR<Eigen::MatrixXd>(Eigen::MatrixXd(along)).householderQ() *
-      Eigen::MatrixXd::Identity(kJoints, kJoints);
-  Eigen::MatrixXd A(2 * kJoints, kJoints);
-  Eigen::VectorXd b(2 * kJoints);
-  for (int i = 0; i < kJoints; ++i) {
-    const Eigen::RowVectorXd face = basis.col(i).transpose();
-    const Eigen::RowVectorXd taper = i == 0 ? Pose::Zero().eval().transpose()
-                                            : (0.3 * width / length * along.transpose()).eval();
-    const double low = std::min(face.dot(from), face.dot(to));
-    const double high = std::max(face.dot(from), face.dot(to));
-    A.row(2 * i) = face + taper;
-    A.row(2 * i + 1) = -face + taper;
-    b[2 * i] = high + width + taper.dot(from.transpose());
-    b[2 * i + 1] = -low + width + taper.dot(from.transpose());
-  }
-  return {A, b};
-}
 
 void Draw(const std::string& path, const CompositeTrajectory<double>& motion, double limit) {
   const double end = motion.end_time();

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "switchyard/dynamics/rigid_body_model.hpp"
 #include "switchyard/model/program.hpp"
 #include "switchyard/solve/solve.hpp"
 #include "switchyard/trajectory/bspline_trajectory.hpp"
@@ -146,6 +147,44 @@ class SWITCHYARD_EXPORT KinematicTrajectoryOptimization final {
   /// T^3 lb <= P M_3 <= T^3 ub.
   std::vector<Binding<Constraint>> AddJerkBounds(const VectorRef& lb, const VectorRef& ub);
 
+  // ---- Of a robot, whose model has num_positions() joints ----
+
+  /// Position and velocity bounds of its joints, where they have some.
+  void AddJointLimits(const RigidBodyModel& model);
+  /// lb <= tau <= ub for the efforts (torques, forces) of inverse dynamics at each s: functions of
+  /// P and T with exact first and second derivatives. A side that is not given is the model's: the
+  /// efforts of its joints, or their negatives. Joints without a finite side are left out. It
+  /// divides by T: throws where no bound keeps T above 0, and where no joint has a finite side.
+  /// Between these times nothing holds: see EffortViolation in efforts.hpp.
+  std::vector<Binding<Constraint>> AddEffortBoundsAtNormalizedTimes(
+      const RigidBodyModel& model, const VectorRef& s,
+      const std::optional<Eigen::VectorXd>& lb = std::nullopt,
+      const std::optional<Eigen::VectorXd>& ub = std::nullopt);
+  /// lower <= o + R point <= upper in the world at s, for a frame with origin o and axes R: the
+  /// point has the coordinates `point` in the frame. Metres.
+  Binding<Constraint> AddFramePositionConstraint(
+      const RigidBodyModel& model, const std::string& frame, const Eigen::Vector3d& lower,
+      const Eigen::Vector3d& upper, double s,
+      const Eigen::Vector3d& point = Eigen::Vector3d::Zero());
+  /// The rotation from the axes D to those of the frame at s is by no more than `tolerance`
+  /// radians, from 0 to below pi. For its angle f that is a row, smooth everywhere,
+  ///
+  ///   (1 - cos f) / (2 sin(tolerance / 2)) <= sin(tolerance / 2),   1 - cos f = (3 - tr D'R) / 2,
+  ///
+  /// of slope cos(tolerance / 2) where f = tolerance. Its slope vanishes at f = 0, so a tolerance
+  /// of 0 is sin(f) axis = 0, half the differences across the diagonal of D'R, and cos f >= 0.
+  /// Throws where `axes` is no rotation to 1e-6.
+  Binding<Constraint> AddFrameOrientationConstraint(const RigidBodyModel& model,
+                                                    const std::string& frame,
+                                                    const Eigen::Matrix3d& axes, double tolerance,
+                                                    double s);
+  /// Distances of the pairs are no less than `distance` metres at each s; without pairs those of
+  /// all. Second derivatives are differences of gradients: see DistanceFunction. Between these
+  /// times nothing holds. Throws where the model has no pairs.
+  std::vector<Binding<Constraint>> AddMinimumDistanceConstraint(
+      const RigidBodyModel& model, double distance, const VectorRef& s,
+      const std::optional<std::vector<int>>& pairs = std::nullopt);
+
   // ---- Costs; weights are 0 or more, but for that of the duration ----
 
   /// weight T.
@@ -170,6 +209,12 @@ class SWITCHYARD_EXPORT KinematicTrajectoryOptimization final {
   /// lb <= d^k q / dt^k <= ub, as it was asked for.
   struct Bound {
     int derivative_order;
+    Eigen::VectorXd lower;
+    Eigen::VectorXd upper;
+  };
+  /// lb <= tau <= ub likewise.
+  struct EffortBound {
+    RigidBodyModel model;
     Eigen::VectorXd lower;
     Eigen::VectorXd upper;
   };
@@ -199,6 +244,14 @@ class SWITCHYARD_EXPORT KinematicTrajectoryOptimization final {
                                      double s, double weight = 1, bool timed = false) const;
   std::vector<Binding<Cost>> AddIntegral(const std::string& call, const Binding<Cost>& binding,
                                          int points, bool timed);
+  void CheckModel(const std::string& call, const RigidBodyModel& model) const;
+  /// lb <= f <= ub of some placeholders, at each s.
+  std::vector<Binding<Constraint>> AddFunction(const std::string& call,
+                                               const std::string& description,
+                                               std::shared_ptr<const Function> f,
+                                               const VectorRef& lb, const VectorRef& ub,
+                                               const VariableList& placeholders,
+                                               const VectorRef& s);
 
   BsplineBasis<double> basis_;
   MathematicalProgram program_;
@@ -209,6 +262,7 @@ class SWITCHYARD_EXPORT KinematicTrajectoryOptimization final {
   double guessed_duration_;  // T_0
   std::vector<std::shared_ptr<PowerRows>> scaled_;
   std::vector<Bound> bounds_;
+  std::vector<EffortBound> effort_bounds_;
 };
 
 /// What FindTrajectory finds.
@@ -218,6 +272,9 @@ struct KinematicTrajectory {
   MathematicalProgramResult result;
   /// See BoundViolation; empty where there is no trajectory.
   std::vector<double> bound_violation;
+  /// The largest EffortViolation of the effort bounds that were added, at 20 times for each control
+  /// point.
+  double effort_violation = 0;
 };
 
 }  // namespace switchyard
