@@ -368,6 +368,9 @@ void Facade::Recover(sy_result& found, const Vectors& mapped, sy_result& result)
   result.row_basis = wanted.row_basis;
   result.relaxed_x = wanted.relaxed_x;
   if (result.relaxed_x != nullptr) result.relaxed = std::nan("");
+  // An epigraph's variable is near the function that it stands for, not at it.
+  const bool is_point = found.primal == SY_FEASIBLE || found.primal == SY_NEARLY_FEASIBLE;
+  if (is_point && d.nlp == nullptr) result.objective = Objective(d, v.x.data());
 }
 
 // What a backend says is not taken on trust: numbers that are none, and words of a newer version.
