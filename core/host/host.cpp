@@ -55,6 +55,7 @@ struct Host::State {
   std::vector<std::string> folders;
   mutable std::recursive_mutex mutex;
   std::deque<Entry> entries;  // entries never move: tables point to them
+  std::vector<std::pair<const sy_plugin*, std::string>> plugins;  // and where each came from
   std::vector<PluginProblem> problems;
   std::map<std::string, std::map<std::string, std::string>> user_options;  // by backend's id
   std::map<std::pair<std::string, std::string>, std::string> settings;     // given out as pointers
@@ -119,7 +120,10 @@ const char* Host::State::Setting(const std::string& id, const std::string& name)
 
 bool Host::State::Take(const sy_plugin& plugin, const std::string& origin) {
   bool all = true;
-  for (const sy_solver* const* table_of = plugin.solvers; *table_of != nullptr; ++table_of) {
+  plugins.emplace_back(&plugin, origin);
+  const sy_solver* const none = nullptr;
+  const sy_solver* const* const tables = plugin.solvers != nullptr ? plugin.solvers : &none;
+  for (const sy_solver* const* table_of = tables; *table_of != nullptr; ++table_of) {
     const sy_solver& solver = **table_of;
     std::string fault = TableFault(solver);
     const auto same = std::find_if(entries.begin(), entries.end(), [&](const Entry& entry) {
@@ -212,6 +216,17 @@ std::vector<const Backend*> Host::backends() const {
   return all;
 }
 
+std::vector<PluginTable> Host::Tables(const std::string& id) const {
+  const std::lock_guard lock(state_->mutex);
+  std::vector<PluginTable> all;
+  for (const auto& [plugin, origin] : state_->plugins) {
+    const sy_plugin whole = plugin::Whole(*plugin);  // fields its author did not know are 0
+    const void* table = whole.extension != nullptr ? whole.extension(id.c_str()) : nullptr;
+    if (table != nullptr) all.push_back({table, Text(plugin->name, " ", plugin->version), origin});
+  }
+  return all;
+}
+
 std::vector<PluginProblem> Host::problems() const {
   const std::lock_guard lock(state_->mutex);
   return state_->problems;
@@ -296,10 +311,24 @@ Candidate Judge(const Host& host, const Backend& backend, const sy_problem& prob
   }
 }
 
-// Among suitable backends that nobody named: fewer bridges; then those that come with the project,
-// so that the default is the same on every machine; then more that can be known and kept.
+// Strategies ask others, and each has a way of its own: which one is the user's to say. Unless it
+// proves what integers make hard, which most other backends do not take at all.
+bool IsAskedUnnamed(const Backend& backend, const sy_problem& problem) {
+  if ((backend.facts.traits & SY_STRATEGY) == 0) return true;
+  if ((backend.facts.traits & SY_PROVES_GLOBAL) == 0 || problem.integer == nullptr) return false;
+  return std::any_of(problem.integer, problem.integer + problem.num_vars,
+                     [](std::uint8_t i) { return i != 0; });
+}
+
+// Among suitable backends that nobody named: strategies last; fewer bridges; then those that come
+// with the project, so that the default is the same on every machine; then more that can be known
+// and kept.
 bool Better(const Candidate& a, const Candidate& b) {
   if (a.suitable != b.suitable) return a.suitable;
+  const auto strategy = [](const Candidate& c) {
+    return (c.backend->facts.traits & SY_STRATEGY) != 0;
+  };
+  if (strategy(a) != strategy(b)) return strategy(b);
   if (a.num_bridges != b.num_bridges) return a.num_bridges < b.num_bridges;
   const auto ours = [](const Candidate& c) { return c.backend->id.starts_with("org.switchyard."); };
   if (ours(a) != ours(b)) return ours(a);
@@ -333,7 +362,7 @@ std::vector<Candidate> Host::Rank(const sy_problem& problem, const std::string& 
   for (const Backend* backend : backends()) {
     const bool is_named = std::any_of(first.begin(), first.end(),
                                       [&](const Candidate& c) { return c.backend == backend; });
-    if (is_named || only_named || (backend->facts.traits & SY_STRATEGY) != 0) continue;
+    if (is_named || only_named || !IsAskedUnnamed(*backend, problem)) continue;
     rest.push_back(Judge(*this, *backend, problem, *Facade(*backend)));
   }
   std::stable_partition(first.begin(), first.end(), [](const Candidate& c) { return c.suitable; });
@@ -396,6 +425,8 @@ const sy_solver* Host::State::Find(const Host& host, const sy_wish& wish) const 
   for (const Candidate& candidate : ranked) {
     const sy_solver& facts = candidate.backend->facts;
     std::string why = candidate.suitable ? "" : candidate.why;
+    const bool strategy = (facts.traits & SY_STRATEGY) != 0;
+    if (why.empty() && strategy && names.empty()) why = "is a strategy, and was not named";
     if (why.empty() && (wish.traits & ~facts.traits) != 0) why = "lacks a trait that is needed";
     if (why.empty() && (wish.honors & ~host.Facade(*candidate.backend)->honors) != 0) {
       why = "does not keep a limit that is needed";

@@ -56,6 +56,23 @@ struct Activity {
   }
 };
 
+/// The ends of an integer that a proven end v leaves.
+inline double IntegerBelow(double v) {
+  return std::floor(v + kIntegral * std::max(1.0, std::abs(v)));
+}
+inline double IntegerAbove(double v) { return -IntegerBelow(-v); }
+
+/// Is lhs <= side more wrong than rounding explains?
+inline bool IsWrong(double lhs, double side) {
+  return lhs - side > kCrossing * std::max(1.0, std::abs(side));
+}
+
+/// Is it worth another look that v replaces the end `old` of a range whose other end is `other`?
+inline bool IsRelevant(double v, double old, double other) {
+  const double range = std::isfinite(other) ? std::abs(old - other) : std::max(1.0, std::abs(v));
+  return std::isinf(old) || std::abs(old - v) > kRelevant * range;
+}
+
 /// The boxes while they are narrowed. Bounds given to Cut and Raise are proven; an integer's are
 /// taken to the next integer inside.
 class Ranges {
@@ -76,20 +93,20 @@ class Ranges {
     boxes_.source = source;
     boxes_.index = index;
   }
-  /// lhs <= side is proven: is that more wrong than rounding explains?
+  /// lhs <= side is proven; the boxes are empty where that is wrong.
   void Demand(double lhs, double side) {
-    if (lhs - side > kCrossing * std::max(1.0, std::abs(side))) boxes_.infeasible = true;
+    if (IsWrong(lhs, side)) boxes_.infeasible = true;
   }
   void Cut(std::int32_t j, double v) {
     if (v >= upper(j)) return;
-    if (IsInteger(j)) v = std::floor(v + kIntegral * std::max(1.0, std::abs(v)));
+    if (IsInteger(j)) v = IntegerBelow(v);
     if (v < upper(j) && Accept(v, upper(j), lower(j), lower(j) - v)) {
       boxes_.upper[static_cast<std::size_t>(j)] = v;
     }
   }
   void Raise(std::int32_t j, double v) {
     if (v <= lower(j)) return;
-    if (IsInteger(j)) v = std::ceil(v - kIntegral * std::max(1.0, std::abs(v)));
+    if (IsInteger(j)) v = IntegerAbove(v);
     if (v > lower(j) && Accept(v, lower(j), upper(j), v - upper(j))) {
       boxes_.lower[static_cast<std::size_t>(j)] = v;
     }
@@ -121,8 +138,7 @@ class Ranges {
       Demand(beyond, 0);
       return false;
     }
-    const double range = std::isfinite(other) ? std::abs(old - other) : std::max(1.0, std::abs(v));
-    if (std::isinf(old) || std::abs(old - v) > kRelevant * range) changed_ = true;
+    if (IsRelevant(v, old, other)) changed_ = true;
     return true;
   }
 

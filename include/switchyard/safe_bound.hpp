@@ -213,6 +213,24 @@ inline double LeastProduct(const Interval& rho, double lower, double upper) {
   return std::isfinite(least) ? least : (rho.lower == 0 && rho.upper == 0 ? 0 : -kInfinity);
 }
 
+/// The terms of the bound that are of no column, and for each column the interval of its rho and
+/// the largest of the terms that it is a sum of: visit(j, rho, largest).
+template <class Visit>
+void EachColumn(const sy_problem& problem, const std::vector<double>& point, const double* row_dual,
+                const double* cone_dual, Terms& terms, Visit&& visit) {
+  const std::vector<ErrorFreeSum> curved = AddObjective(problem, point.data(), terms);
+  const std::vector<double> y = UsableRowDual(problem, row_dual, terms);
+  const std::vector<double> z = UsableConeDual(problem, cone_dual, terms);
+  for (std::int32_t j = 0; j < problem.num_vars; ++j) {
+    ErrorFreeSum sum = curved.empty() ? ErrorFreeSum() : curved[static_cast<std::size_t>(j)];
+    if (problem.q != nullptr) sum.Add(problem.q[j]);
+    if (problem.P != nullptr && curved.empty()) AddColumn(problem.P, j, 1, point.data(), sum);
+    if (problem.A != nullptr) AddColumn(problem.A, j, -1, y.data(), sum);
+    if (problem.F != nullptr) AddColumn(problem.F, j, -1, z.data(), sum);
+    visit(j, sum.Enclosure(), sum.largest_term());
+  }
+}
+
 }  // namespace safe_bound_detail
 
 /// A bound on the optimum of a convex problem without nlp, at any x and any duals, in time linear
@@ -238,41 +256,28 @@ inline SafeBound SafeDualBound(const sy_problem& problem, const double* x, const
   if (problem.nlp != nullptr) return {-kInfinity, -kInfinity, -1, 0};
   Terms terms;
   const std::vector<double> point = FiniteOrZero(x, problem.num_vars);
-  const std::vector<ErrorFreeSum> curved = AddObjective(problem, point.data(), terms);
-  const std::vector<double> y = UsableRowDual(problem, row_dual, terms);
-  const std::vector<double> z = UsableConeDual(problem, cone_dual, terms);
-
   const double* lower = box_lower != nullptr ? box_lower : problem.x_lower;
   const double* upper = box_upper != nullptr ? box_upper : problem.x_upper;
   SafeBound bound{0, 0, -1, 0};
-  for (std::int32_t j = 0; j < problem.num_vars; ++j) {
-    const auto at = static_cast<std::size_t>(j);
-    ErrorFreeSum sum = curved.empty() ? ErrorFreeSum() : curved[at];
-    if (problem.q != nullptr) sum.Add(problem.q[j]);
-    if (problem.P != nullptr && curved.empty()) AddColumn(problem.P, j, 1, point.data(), sum);
-    if (problem.A != nullptr) AddColumn(problem.A, j, -1, y.data(), sum);
-    if (problem.F != nullptr) AddColumn(problem.F, j, -1, z.data(), sum);
-    const Interval rho = sum.Enclosure();
+  const auto add = [&](std::int32_t j, const Interval& rho, double largest_term) {
     const double l = lower != nullptr ? lower[j] : -kInfinity;
     const double u = upper != nullptr ? upper[j] : kInfinity;
     const double open = OpenSize(rho, l, u);
-    if (open == 0) {
-      terms.Add(LeastProduct(rho, l, u));
-      continue;
-    }
+    if (open == 0) return terms.Add(LeastProduct(rho, l, u));
     if (curvature != nullptr && curvature[j] > 0 && std::isfinite(open)) {
+      const double at = point[static_cast<std::size_t>(j)];
       const double largest = std::max(std::abs(rho.lower), std::abs(rho.upper));
-      terms.Add(std::min(rho.lower * point[at], rho.upper * point[at]));
-      terms.Add(-largest * largest / (2 * curvature[j]));
-      continue;
+      terms.Add(std::min(rho.lower * at, rho.upper * at));
+      return terms.Add(-largest * largest / (2 * curvature[j]));
     }
     const double size = 1 + (problem.q != nullptr ? std::abs(problem.q[j]) : 0);
-    const double residual = open / (size + sum.largest_term());
+    const double residual = open / (size + largest_term);
     if (bound.open_column < 0 || !(residual <= bound.open_residual)) {
       bound.open_column = j;
       bound.open_residual = residual;
     }
-  }
+  };
+  EachColumn(problem, point, row_dual, cone_dual, terms, add);
   bound.estimate = terms.LowerEnd();
   bound.value = bound.open_column < 0 ? bound.estimate : -kInfinity;
   return bound;

@@ -94,8 +94,40 @@ void Loaded::SetBounds(const std::vector<double>& lower, const std::vector<doubl
   update.x = changed.data();
   update.x_lower = below.data();
   update.x_upper = above.data();
+  Update(update);
+}
+
+void Loaded::Update(const sy_update& update) {
+  if (solver_.update == nullptr) {
+    throw Failure(SY_E_UNSUPPORTED, std::string(solver_.id) + " takes no updates");
+  }
   sy_error error{};
   Need(solver_.update(instance_.get(), &update, &error), solver_, "update", error);
+}
+
+void Loaded::AppendRows(const Csc& At, const std::vector<double>& lower) {
+  const std::vector<double> upper(lower.size(), std::numeric_limits<double>::infinity());
+  const sy_csc by_rows = At.View();
+  sy_more more{};
+  more.size = sizeof more;
+  more.num_rows = At.cols;
+  more.At = &by_rows;
+  more.row_lower = lower.data();
+  more.row_upper = upper.data();
+  sy_update update{};
+  update.size = sizeof update;
+  update.more = &more;
+  Update(update);
+  problem_.num_rows += At.cols;
+}
+
+void Loaded::RemoveRows(const std::vector<std::int32_t>& rows) {
+  sy_update update{};
+  update.size = sizeof update;
+  update.num_gone_rows = static_cast<std::int32_t>(rows.size());
+  update.gone_row = rows.data();
+  Update(update);
+  problem_.num_rows -= update.num_gone_rows;
 }
 
 void Loaded::StartFrom(const Answer& answer) {

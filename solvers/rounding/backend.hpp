@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "switchyard/abi.h"
+#include "switchyard/problem.hpp"
 
 namespace switchyard::rounding {
 
@@ -43,6 +44,10 @@ class Loaded {
          std::uint64_t updates);
   /// By an update of those that differ where the backend takes one, else by another load.
   void SetBounds(const std::vector<double>& lower, const std::vector<double>& upper);
+  /// Rows lower <= At'x behind the others, a column of At for each.
+  void AppendRows(const Csc& At, const std::vector<double>& lower);
+  /// Ascending; the rows behind move up.
+  void RemoveRows(const std::vector<std::int32_t>& rows);
   /// From an answer to a problem of which this is an extension, variables and rows behind. A start
   /// that is not taken is no failure.
   void StartFrom(const Answer& answer);
@@ -50,6 +55,7 @@ class Loaded {
 
  private:
   void Load(const sy_problem& problem, std::uint64_t updates);
+  void Update(const sy_update& update);
 
   const sy_solver& solver_;
   std::unique_ptr<sy_instance, void (*)(sy_instance*) noexcept> instance_;

@@ -60,7 +60,14 @@ class Budget {
 
   /// Tells the host: an incumbent where there is a new one.
   void Tell(double objective, double bound, const double* incumbent) {
+    TellOfTree(objective, bound, incumbent, 0, 0);
+  }
+  /// Likewise, with the nodes of a tree that were looked at, and those that are open.
+  void TellOfTree(double objective, double bound, const double* incumbent, std::int64_t nodes,
+                  std::int64_t open) {
     sy_progress told = Nothing();
+    told.nodes = nodes;
+    told.open_nodes = open;
     told.objective = objective;
     told.bound = bound;
     told.incumbent = incumbent;

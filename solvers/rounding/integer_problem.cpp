@@ -2,16 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "solvers/rounding/verify.hpp"
 #include "switchyard/cones.hpp"
-#include "switchyard/plugin.hpp"
 
 namespace switchyard::rounding {
 namespace {
-
-using plugin::Failure;
 
 std::size_t At(std::int32_t i) { return static_cast<std::size_t>(i); }
 
@@ -20,26 +16,6 @@ template <class Visit>
 void EachEntry(const sy_csc* m, std::int32_t j, Visit&& visit) {
   if (m == nullptr) return;
   for (std::int32_t k = m->start[j]; k < m->start[j + 1]; ++k) visit(At(m->row[k]), m->value[k]);
-}
-
-sy_sos1 CheckedGroups(const sy_problem& p) {
-  sy_sos1 groups{};
-  for (const sy_hint* hint = p.hints; hint != nullptr && hint->id != nullptr; ++hint) {
-    if (std::strcmp(hint->id, "sy.sos1/1") != 0) continue;
-    groups = plugin::Whole(*static_cast<const sy_sos1*>(hint->data));
-  }
-  for (std::int32_t g = 0; g < groups.num_groups; ++g) {
-    if (groups.start[g] >= 0 && groups.start[g] <= groups.start[g + 1]) continue;
-    throw Failure(SY_E_ARGUMENT, "sy.sos1/1: start must ascend from 0, and start[" +
-                                     std::to_string(g) + "] is " + std::to_string(groups.start[g]));
-  }
-  for (std::int32_t k = 0; groups.num_groups > 0 && k < groups.start[groups.num_groups]; ++k) {
-    if (groups.x[k] >= 0 && groups.x[k] < p.num_vars) continue;
-    throw Failure(SY_E_ARGUMENT, "sy.sos1/1: x[" + std::to_string(k) + "] must be in [0, " +
-                                     std::to_string(p.num_vars) + "), and is " +
-                                     std::to_string(groups.x[k]));
-  }
-  return groups;
 }
 
 /// Of rows of F: does the cone stay satisfied where the row grows, where it falls? The cone is
@@ -76,8 +52,7 @@ std::vector<Indifference> IndifferenceOfRows(const sy_problem& p,
 
 }  // namespace
 
-IntegerProblem::IntegerProblem(const sy_problem& problem)
-    : problem_(problem), sos1_(CheckedGroups(problem)) {
+IntegerProblem::IntegerProblem(const sy_problem& problem) : problem_(problem), groups_(problem) {
   for (std::int32_t j = 0; problem.integer != nullptr && j < problem.num_vars; ++j) {
     if (problem.integer[j] != 0) integers_.push_back(j);
   }
@@ -87,10 +62,6 @@ IntegerProblem::IntegerProblem(const sy_problem& problem)
     EachEntry(problem.A, j, [&](std::size_t row, double) { has_continuous_[row] = 1; });
   }
   CountLocks();
-}
-
-std::span<const std::int32_t> IntegerProblem::Group(std::int32_t i) const {
-  return {sos1_.x + sos1_.start[i], At(sos1_.start[i + 1] - sos1_.start[i])};
 }
 
 void IntegerProblem::CountLocks() {
@@ -116,6 +87,7 @@ void IntegerProblem::CountLocks() {
 std::string IntegerProblem::WhatIsViolatedBy(const std::vector<double>& x, double tolerance) const {
   std::string violated = WhatIsViolated(problem_, x.data(), tolerance);
   if (violated.empty()) violated = WhatIntegerRowIsViolatedBy(x, tolerance);
+  if (violated.empty()) violated = WhatProductIsViolatedBy(x, tolerance);
   for (std::int32_t g = 0; violated.empty() && g < num_groups(); ++g) {
     double largest = 0, next = 0;
     for (const std::int32_t j : Group(g)) {
@@ -151,6 +123,25 @@ std::string IntegerProblem::WhatIntegerRowIsViolatedBy(const std::vector<double>
     const bool above =
         p.row_upper != nullptr && is_beyond(p.row_upper[i], value[i] - p.row_upper[i]);
     if (below || above) return "row[" + std::to_string(i) + "] over integers alone is violated";
+  }
+  return "";
+}
+
+std::string IntegerProblem::WhatProductIsViolatedBy(const std::vector<double>& x,
+                                                    double tolerance) const {
+  const sy_problem& p = problem_;
+  std::vector<double> s(At(p.num_cone_rows), 0.0);
+  if (p.g != nullptr) s.assign(p.g, p.g + p.num_cone_rows);
+  if (p.F != nullptr) MultiplyAdd(*p.F, 1, x.data(), s.data());
+  std::size_t first = 0;
+  for (std::int32_t c = 0; c < p.num_cones; first += At(p.cones[c++].dim)) {
+    if (p.cones[c].kind != SY_CONE_ROTATED) continue;
+    double squares = 0;
+    for (std::size_t i = first + 2; i < first + At(p.cones[c].dim); ++i) squares += s[i] * s[i];
+    const double product = 2 * std::max(0.0, s[first]) * std::max(0.0, s[first + 1]);
+    if (squares - product <= tolerance * std::max({1.0, squares, product})) continue;
+    return "cone[" + std::to_string(c) + "]: its product is exceeded by " +
+           std::to_string(squares - product);
   }
   return "";
 }

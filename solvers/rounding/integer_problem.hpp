@@ -9,7 +9,7 @@
 
 #include "switchyard/abi.h"
 #include "switchyard/boxes.hpp"
-#include "switchyard/hints.h"
+#include "switchyard/sos1_groups.hpp"
 
 namespace switchyard::rounding {
 
@@ -32,21 +32,25 @@ class IntegerProblem {
   /// Of each of integers(). A cone K is indifferent to growth of row i where e_i is in K.
   [[nodiscard]] const std::vector<Locks>& locks() const { return locks_; }
   /// At most one of each is not 0.
-  [[nodiscard]] std::int32_t num_groups() const { return sos1_.num_groups; }
-  [[nodiscard]] std::span<const std::int32_t> Group(std::int32_t i) const;
+  [[nodiscard]] std::int32_t num_groups() const { return groups_.size(); }
+  [[nodiscard]] std::span<const std::int32_t> Group(std::int32_t i) const { return groups_.Of(i); }
 
   /// What x violates by more than `tolerance`, relative: the problem's own or a group; "": nothing.
   /// A row over integers alone is held to its sides: large terms of either sign excuse nothing,
-  /// since whole numbers have no error.
+  /// since whole numbers have no error. The product of a rotated cone is held to its squares, too,
+  /// relative to both: next to a huge head the cone is near, also for members of any size beside a
+  /// head that an integer has switched off.
   [[nodiscard]] std::string WhatIsViolatedBy(const std::vector<double>& x, double tolerance) const;
 
  private:
   void CountLocks();
   [[nodiscard]] std::string WhatIntegerRowIsViolatedBy(const std::vector<double>& x,
                                                        double tolerance) const;
+  [[nodiscard]] std::string WhatProductIsViolatedBy(const std::vector<double>& x,
+                                                    double tolerance) const;
 
   sy_problem problem_;
-  sy_sos1 sos1_{};
+  Sos1Groups groups_;
   std::vector<std::int32_t> integers_;
   std::vector<Locks> locks_;
   std::vector<std::uint8_t> has_continuous_;  // of each row

@@ -2,8 +2,8 @@
 
 #include <array>
 #include <cstdint>
-#include <sstream>
 
+#include "solvers/rounding/option_values.hpp"
 #include "switchyard/plugin.hpp"
 
 namespace switchyard::rounding {
@@ -32,53 +32,24 @@ constexpr std::array kIntegers = {
             "alone",
             1e5}};
 
-constexpr sy_option Row(const char* name, const char* help, sy_type type, double upper) {
-  return {sizeof(sy_option), 0, name, help, {type, 0, {}}, 0, upper, nullptr};
-}
-
 /// `solver`, `flow_tolerance`, then the integers.
 const std::array<sy_option, 2 + kIntegers.size()>& Rows() {
   static const std::array<sy_option, 2 + kIntegers.size()> rows = [] {
     const Options fallback;
     std::array<sy_option, 2 + kIntegers.size()> r = {
-        Row("solver", "Backends for relaxation and restrictions, in order; empty: any", SY_TEXT, 0),
-        Row("flow_tolerance", "Arcs with no more flow are not drawn", SY_REAL, 1)};
+        OptionRow("solver", "Backends for relaxation and restrictions, in order; empty: any",
+                  SY_TEXT, 0),
+        OptionRow("flow_tolerance", "Arcs with no more flow are not drawn", SY_REAL, 1)};
     r[0].fallback.as.text = "";
     r[1].fallback.as.real = fallback.flow_tolerance;
     for (std::size_t k = 0; k < kIntegers.size(); ++k) {
       const Integer& of = kIntegers[k];
-      r[2 + k] = Row(of.name, of.help, SY_INTEGER, of.upper);
+      r[2 + k] = OptionRow(of.name, of.help, SY_INTEGER, of.upper);
       r[2 + k].fallback.as.integer = fallback.*of.member;
     }
     return r;
   }();
   return rows;
-}
-
-[[noreturn]] void Refuse(const sy_option& row, const std::string& need, const sy_value& value) {
-  std::ostringstream text;
-  text << "option " << row.name << " " << need << "; ";
-  if (value.type == SY_TEXT) text << "'" << (value.as.text != nullptr ? value.as.text : "") << "'";
-  if (value.type == SY_REAL) text << value.as.real;
-  if (value.type == SY_INTEGER) text << value.as.integer;
-  text << " came";
-  throw plugin::Failure(SY_E_ARGUMENT, text.str());
-}
-
-/// The number of a value that fits the row's type and range; an integer serves for a real.
-double Number(const sy_option& row, const sy_value& value) {
-  const bool real = row.fallback.type == SY_REAL;
-  if (value.type != SY_INTEGER && !(real && value.type == SY_REAL)) {
-    Refuse(row, real ? "takes a real number" : "takes an integer", value);
-  }
-  const double number =
-      value.type == SY_REAL ? value.as.real : static_cast<double>(value.as.integer);
-  if (!(number >= row.lower && number <= row.upper)) {
-    std::ostringstream need;
-    need << "lies in [" << row.lower << ", " << row.upper << "]";
-    Refuse(row, need.str(), value);
-  }
-  return number;
 }
 
 }  // namespace
@@ -94,19 +65,16 @@ const sy_option* const* OptionTable() {
 
 void Options::Set(std::string_view name, const sy_value& value) {
   if (name == Rows()[0].name) {
-    if (value.type != SY_TEXT || value.as.text == nullptr) {
-      Refuse(Rows()[0], "takes a text", value);
-    }
-    solver = value.as.text;
+    solver = TextOf(Rows()[0], value);
     return;
   }
   if (name == Rows()[1].name) {
-    flow_tolerance = Number(Rows()[1], value);
+    flow_tolerance = NumberOf(Rows()[1], value);
     return;
   }
   for (std::size_t k = 0; k < kIntegers.size(); ++k) {
     if (name != kIntegers[k].name) continue;
-    this->*kIntegers[k].member = static_cast<int>(Number(Rows()[2 + k], value));
+    this->*kIntegers[k].member = static_cast<int>(NumberOf(Rows()[2 + k], value));
     return;
   }
   throw plugin::Failure(SY_E_ARGUMENT, "relax-and-round has no option '" + std::string(name) + "'");

@@ -13,8 +13,9 @@ from pathlib import Path
 from function_lengths import functions
 
 # What a plugin, a solver and core share: the headers directly in include/switchyard.
-SHARED = {"abi.h", "hints.h", "plugin.hpp", "problem.hpp", "problem_update.hpp", "cones.hpp",
-          "boxes.hpp", "safe_bound.hpp", "arcs.hpp", "arc_graph.hpp"}
+SHARED = {"abi.h", "hints.h", "dynamics.h", "plugin.hpp", "problem.hpp", "problem_update.hpp", "cones.hpp",
+          "boxes.hpp", "safe_bound.hpp", "arcs.hpp", "arc_graph.hpp",
+          "sos1_groups.hpp"}
 
 # Inside core, each part and the parts it may know. `abi` are the shared headers, known to all.
 # Bridges map a sy_problem to a sy_problem: the host applies them for each backend, and neither knows
@@ -26,11 +27,14 @@ CORE_KNOWS = {
     "problem": {"linalg"},
     "bridges": {"linalg", "problem"},
     "host": {"linalg", "problem", "bridges"},
+    "dynamics": {"linalg", "functions", "host"},
     "model": {"linalg", "functions", "symbolic"},
     "lower": {"linalg", "functions", "symbolic", "problem", "model"},
 }
 for above in ("solve", "sets", "gcs", "trajectory"):
-    CORE_KNOWS[above] = set(CORE_KNOWS)
+    CORE_KNOWS[above] = set(CORE_KNOWS) - {"dynamics"}
+# A robot's efforts, frames and distances are asked of along a trajectory alone.
+CORE_KNOWS["trajectory"].add("dynamics")
 # Files hold programs, graphs and trajectories, and no answers.
 CORE_KNOWS["io"] = {"linalg", "functions", "symbolic", "model", "sets", "gcs", "trajectory"}
 
@@ -41,6 +45,7 @@ SOLVERS_KNOW = {
     "presolve": set(),
     "conic": {"linalg", "cones", "presolve"},
     "rounding": set(),
+    "mip": {"rounding"},
 }
 # Only this part orders matrices.
 ORDERING_PART = "linalg"

@@ -504,6 +504,16 @@ class Plugins(CommandLine):
         self.assertRegex(described.stdout, rf"(?m)^id +\S*{backend}$")
         self.expect(self.run_program("plugins", "doctor"), ANSWERED)
 
+    def test_tables_that_are_no_solvers_are_listed(self):
+        engines = json.loads(self.run_program("plugins", "list", "--json").stdout)["dynamics"]
+        if not engines:
+            self.skipTest("no plugin offers rigid-body dynamics")
+        listed = self.expect(self.run_program("plugins", "list"), ANSWERED).stdout
+        for engine in engines:
+            self.assertIn(f"dynamics: {engine['name']} {engine['version']} ({engine['file']})", listed)
+            done = self.expect(self.run_program("plugins", "doctor", engine["file"]), ANSWERED)
+            self.assertIn(f"dynamics: {engine['name']} {engine['version']}: ready", done.stdout)
+
     def test_describe_of_none(self):
         self.need("highs")
         done = self.expect(self.run_program("plugins", "describe", "higs"), BAD_INPUT)
@@ -556,7 +566,7 @@ class Plugins(CommandLine):
         program = other / "bin" / self.program.name
         listed = json.loads(self.run_program("plugins", "list", "--json", program=program).stdout)
         self.assertEqual([one["name"] for one in listed["solvers"]], self.backends)
-        for one in listed["solvers"]:
+        for one in listed["solvers"] + listed["dynamics"]:
             self.assertTrue(one["file"].startswith(str(other.resolve())), one["file"])
         done = self.run_program("solve", self.example("transport.mps"), "--solver", backend,
                                 "--json", "-", program=program)

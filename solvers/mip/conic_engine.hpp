@@ -1,0 +1,38 @@
+// solvers/mip/conic_engine.hpp - nodes bounded by the problem's own continuous relaxation.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "solvers/mip/engine.hpp"
+#include "solvers/rounding/backend.hpp"
+#include "solvers/rounding/budget.hpp"
+
+namespace switchyard::mip {
+
+class ConicEngine : public Engine {
+ public:
+  /// Borrows both, which stay in place. `relaxation`: the problem, perhaps without bounds of
+  /// continuous variables that rows and cones imply. `solver`: of the host's, for it.
+  ConicEngine(const sy_problem& problem, const sy_problem& relaxation, const sy_solver& solver,
+              const sy_host& host, rounding::Budget& budget);
+
+  Relaxed Solve(const NodeBoxes& boxes, double cutoff, int rounds) override;
+  Relaxed Glance(const NodeBoxes& boxes, double cutoff) override { return Solve(boxes, cutoff, 0); }
+  [[nodiscard]] std::string Name() const override { return solver_.id; }
+  [[nodiscard]] sy_termination last_termination() const { return last_termination_; }
+
+ private:
+  Relaxed Judge(const rounding::Answer& answer, const NodeBoxes& boxes, double cutoff);
+
+  sy_problem problem_;
+  sy_problem relaxation_;
+  const sy_solver& solver_;
+  rounding::Budget& budget_;
+  std::vector<double> lower_, upper_;  // what the backend is given
+  std::optional<rounding::Loaded> loaded_;
+  sy_termination last_termination_ = SY_NOT_SOLVED;
+};
+
+}  // namespace switchyard::mip
