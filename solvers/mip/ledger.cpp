@@ -67,6 +67,7 @@ void Ledger::Offer(double objective, const std::vector<double>& x) {
     shared_.Offer(objective, x);
     return;
   }
+  if (!(objective < shared_.budget().control().cutoff)) return;
   offered_.push_back({objective, x});
   best_ = std::min(best_, objective);
   cutoff_ = std::min(cutoff_, Threshold(shared_.budget().control(), objective));

@@ -65,6 +65,9 @@ void Run::Solve() {
   }
   if (!Relax()) return;
   ChooseEngine();
+  auto root = std::make_shared<Node>();
+  root->bound = root_bound_;
+  shared_.Push(std::move(root));  // from here on the tree has a bound
   TakeStart();
   Dive();
   Search();
@@ -182,7 +185,8 @@ void Run::Dive() {
                                            rounding::DiveRule::kCoefficient,
                                            rounding::DiveRule::kDrawn};
   for (int k = 0; k < options_.dives && !budget_.Stopped(); ++k) {
-    if (k > 0 && (shared_.best() < kInfinity || budget_.Seconds() - begin > enough)) return;
+    const bool late = options_.deterministic == 0 && budget_.Seconds() - begin > enough;
+    if (k > 0 && (shared_.best() < kInfinity || late)) return;
     rounding::DiveOptions dive;
     dive.rule = kRules[static_cast<std::size_t>(k) % std::size(kRules)];
     dive.seed = budget_.control().seed + static_cast<std::uint64_t>(k);
@@ -203,9 +207,6 @@ void Run::Work(std::size_t index) noexcept {
 }
 
 void Run::Search() {
-  auto root = std::make_shared<Node>();
-  root->bound = root_bound_;
-  shared_.Push(std::move(root));
   if (options_.deterministic != 0) return SearchInRounds();
   std::vector<std::jthread> others;
   for (std::size_t w = 1; w < workers_; ++w) others.emplace_back([this, w] { Work(w); });

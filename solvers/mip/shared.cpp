@@ -1,6 +1,7 @@
 #include "solvers/mip/shared.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <limits>
 
 namespace switchyard::mip {
@@ -25,14 +26,24 @@ void Shared::Push(NodePointer node) {
   changed_.notify_one();
 }
 
+// Nothing: there is none that is worth it now.
+NodePointer Shared::PopLocked(std::size_t worker) {
+  if (open_.empty()) return nullptr;
+  if (open_.least_bound() >= cutoff_) {  // then all are
+    while (!open_.empty()) closed_ = std::min(closed_, open_.Pop()->bound);
+    return nullptr;
+  }
+  NodePointer node = open_.Pop();
+  at_work_[worker] = 1;
+  held_[worker] = node->bound;
+  return node;
+}
+
 NodePointer Shared::Pop(std::size_t worker) {
   std::unique_lock lock(mutex_);
   for (;;) {
-    if (budget_.Stopped() || node_limit() || !failure_.empty()) return nullptr;
-    if (!open_.empty()) {
-      if (open_.least_bound() < cutoff_) break;
-      while (!open_.empty()) closed_ = std::min(closed_, open_.Pop()->bound);  // all within the gap
-    }
+    if (StoppedLocked()) return nullptr;
+    if (NodePointer node = PopLocked(worker)) return node;
     const bool others =
         std::any_of(at_work_.begin(), at_work_.end(), [](std::uint8_t w) { return w != 0; });
     if (!others) {
@@ -41,20 +52,14 @@ NodePointer Shared::Pop(std::size_t worker) {
     }
     changed_.wait_for(lock, std::chrono::milliseconds(20));
   }
-  NodePointer node = open_.Pop();
-  at_work_[worker] = 1;
-  held_[worker] = node->bound;
-  return node;
 }
 
 std::vector<NodePointer> Shared::PopSome(std::size_t count) {
   std::vector<NodePointer> nodes;
+  const std::lock_guard lock(mutex_);
+  if (StoppedLocked()) return nodes;
   while (nodes.size() < count) {
-    {
-      const std::lock_guard lock(mutex_);
-      if (open_.empty()) break;
-    }
-    NodePointer node = Pop(nodes.size());
+    NodePointer node = PopLocked(nodes.size());
     if (node == nullptr) break;
     nodes.push_back(std::move(node));
   }
@@ -103,6 +108,7 @@ void Shared::CountNode(std::int64_t iterations) {
 }
 
 bool Shared::Offer(double objective, const std::vector<double>& x) {
+  if (!(objective < budget_.control().cutoff)) return false;
   const std::lock_guard lock(mutex_);
   if (!incumbents_.Offer(objective, x)) return false;
   best_points_.push_back(x);
@@ -133,16 +139,21 @@ Pseudocosts Shared::Learned() const {
 }
 
 bool Shared::Stopped() {
-  if (budget_.Stopped() || node_limit()) return true;
   const std::lock_guard lock(mutex_);
-  return !failure_.empty() || incumbents_.objective() <= budget_.control().target;
+  return StoppedLocked();
+}
+
+bool Shared::StoppedLocked() {
+  return budget_.Stopped() || node_limit() || !failure_.empty() ||
+         incumbents_.objective() <= budget_.control().target;
 }
 
 double Shared::BoundLocked() const {
   double bound = std::min({open_.least_bound(), closed_, unproven_});
   for (const double held : held_) bound = std::min(bound, held);
   for (const NodePointer& node : waiting_) bound = std::min(bound, node->bound);
-  return std::min(bound, incumbents_.objective());
+  proven_ = std::max(proven_, std::min(bound, incumbents_.objective()));
+  return proven_;
 }
 
 double Shared::Bound() const {

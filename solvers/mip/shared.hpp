@@ -48,7 +48,7 @@ class Shared {
 
   // ---- Points ----
 
-  /// A verified point. Is it the best?
+  /// A verified point. Is it the best, and below the cutoff that was asked for?
   bool Offer(double objective, const std::vector<double>& x);
   /// Of the best one; infinity where there is none.
   [[nodiscard]] double best() const { return best_; }
@@ -81,6 +81,8 @@ class Shared {
   void SetWorkers(std::size_t count);
 
  private:
+  NodePointer PopLocked(std::size_t worker);
+  [[nodiscard]] bool StoppedLocked();
   [[nodiscard]] double BoundLocked() const;
   void TellLocked(const double* incumbent);
 
@@ -100,7 +102,7 @@ class Shared {
   std::int64_t number_ = 0;
   std::size_t given_up_ = 0;
   std::atomic<std::int64_t> nodes_ = 0, iterations_ = 0;
-  double told_ = -kInfinity;
+  mutable double proven_ = -kInfinity;  // what was proven stays so
   std::string failure_;
 };
 

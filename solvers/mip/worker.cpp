@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "solvers/mip/neighborhood.hpp"
 #include "solvers/mip/path_branching.hpp"
 
 namespace switchyard::mip {
@@ -83,7 +84,10 @@ bool Worker::Look() {
 
 // Points that others found, too, say where cuts are needed.
 Relaxed Worker::Relax(int rounds) {
-  for (const std::vector<double>& x : ledger_.NewPoints()) engine_->See(x);
+  for (std::vector<double>& x : ledger_.NewPoints()) {
+    engine_->See(x);
+    best_x_ = std::move(x);
+  }
   Relaxed relaxed = engine_->Solve(boxes_, cutoff_, rounds);
   if (relaxed.state == State::kTrouble && !ledger_.Stopped()) relaxed = RelaxOtherwise();
   ledger_.CountNode(relaxed.iterations);
@@ -137,6 +141,7 @@ Worker::End Worker::JudgePoint(Relaxed& relaxed) {
   }
   TryPaths(relaxed.x);
   TryRounding(relaxed.x);
+  TryNear(relaxed.x);
   if (bound_ >= ledger_.cutoff()) {
     ledger_.Close(bound_);
     return End::kClosed;
@@ -299,6 +304,19 @@ void Worker::TryRounding(const std::vector<double>& x) {
   }
   boxes_.UndoTo(mark);
   if (left) SolveFixed(rounded);
+}
+
+// After 8, 16, 32, ... nodes, where the gap is no small one.
+void Worker::TryNear(const std::vector<double>& x) {
+  if (instance_.paths != nullptr || instance_.options.dives == 0) return;
+  if (ledger_.nodes() < near_at_ || best_x_.empty()) return;
+  near_at_ = 2 * ledger_.nodes();
+  constexpr double kLarge = 1e-3;
+  if (ledger_.best() - bound_ <= kLarge * std::abs(ledger_.best())) return;
+  for (const Solution& found :
+       SearchNear(instance_, x, best_x_, ledger_.cutoff(), ledger_.budget())) {
+    TryPoint(found.x);
+  }
 }
 
 // Of integers, since the node began: the continuous ones follow.

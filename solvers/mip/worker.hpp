@@ -44,6 +44,7 @@ class Worker {
   Relaxed SolveFixed(const std::vector<double>& x);
   void TryPaths(const std::vector<double>& x);
   void TryRounding(const std::vector<double>& x);
+  void TryNear(const std::vector<double>& x);
   bool Descend(Split split);
   void GiveUp(double bound);
   void LearnFrom(const Relaxed& relaxed);
@@ -65,6 +66,8 @@ class Worker {
   double bound_ = -kInfinity;
   double cutoff_ = kInfinity;             // that the node at hand is looked at with
   int length_ = 0;                        // of the plunge
+  std::int64_t near_at_ = 8;              // nodes after which the best neighborhood is searched
+  std::vector<double> best_x_;            // that it has heard of
   std::set<std::vector<double>> solved_;  // integers of which the rest was solved
 };
 

@@ -1,0 +1,211 @@
+// What branch and bound keeps beside its optimum: limits, cutoff and target, starts, progress, the
+// same tree for any number of threads, and its words for what it does not take.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include "switchyard/model/program.hpp"
+#include "switchyard/solve/solve.hpp"
+#include "tests/mip/enumerate.hpp"
+#include "tests/mip/random_program.hpp"
+#include "tests/nonlinear/backends.hpp"
+
+namespace switchyard::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr const char* kBackend = "branch-and-bound";
+
+/// min risk - return over n assets of which at most k are held: |C x| <= t, sum x = 1, x <= z.
+Problem Portfolio(int n, int k, unsigned seed) {
+  MathematicalProgram prog;
+  std::mt19937_64 engine(seed);
+  std::normal_distribution<double> normal;
+  const auto x = prog.NewContinuousVariables(n, "x");
+  const auto z = prog.NewBinaryVariables(n, "z");
+  const auto t = prog.NewContinuousVariables(1, "t");
+  Eigen::MatrixXd C(n, n);
+  for (double& c : C.reshaped()) c = normal(engine);
+  ProblemData d;
+  const int all = 2 * n + 1;
+  d.num_vars = all;
+  d.flags = SY_PROBLEM_CONVEX;
+  d.P = Csc(all, all);
+  d.q.assign(static_cast<std::size_t>(all), 0.0);
+  for (int j = 0; j < n; ++j) d.q[static_cast<std::size_t>(j)] = -0.1 * normal(engine);
+  d.q.back() = 1;
+  d.x_lower.assign(static_cast<std::size_t>(all), 0.0);
+  d.x_upper.assign(static_cast<std::size_t>(all), 1.0);
+  d.x_upper.back() = kInfinity;
+  d.integer.assign(static_cast<std::size_t>(all), 0);
+  for (int j = n; j < 2 * n; ++j) d.integer[static_cast<std::size_t>(j)] = 1;
+  // Rows: the sum, how many are held, and x <= z for each.
+  d.row_lower.assign(static_cast<std::size_t>(n) + 2, -kInfinity);
+  d.row_upper.assign(static_cast<std::size_t>(n) + 2, 0.0);
+  d.row_lower[0] = d.row_upper[0] = 1;
+  d.row_upper[1] = k;
+  d.A = Csc(n + 2, all);
+  const auto put = [](Csc& m, int row, double value) {
+    m.row.push_back(row);
+    m.value.push_back(value);
+  };
+  d.F = Csc(n + 1, all);
+  for (int j = 0; j < all; ++j) {
+    if (j < n) {
+      put(d.A, 0, 1);
+      put(d.A, 2 + j, 1);
+      for (int i = 0; i < n; ++i) put(d.F, 1 + i, C(i, j));
+    } else if (j < 2 * n) {
+      put(d.A, 1, 1);
+      put(d.A, 2 + j - n, -1);
+    } else {
+      put(d.F, 0, 1);
+    }
+    d.A.start[static_cast<std::size_t>(j) + 1] = static_cast<std::int32_t>(d.A.row.size());
+    d.F.start[static_cast<std::size_t>(j) + 1] = static_cast<std::int32_t>(d.F.row.size());
+  }
+  d.g.assign(static_cast<std::size_t>(n) + 1, 0.0);
+  d.cones = {{SY_CONE_SECOND_ORDER, n + 1, 0}};
+  return Problem(std::move(d));
+}
+
+BackendAnswer Answer(const Problem& problem, const sy_control& control,
+                     const std::vector<std::string>& options = {}) {
+  return SolveThroughHost(Built(), kBackend, problem.view(), control, options);
+}
+
+TEST(BranchAndBound, HasTheSameTreeForAnyNumberOfThreadsWhereThatIsAsked) {
+  SKIP_WITHOUT(kBackend);
+  const Problem problem = Portfolio(14, 4, 3);
+  const BackendAnswer one = Answer(problem, Unlimited(1), {"deterministic=1"});
+  const BackendAnswer two = Answer(problem, Unlimited(2), {"deterministic=1"});
+  ASSERT_EQ(one.result.termination, SY_OPTIMAL) << one.text;
+  EXPECT_EQ(one.result.nodes, two.result.nodes);
+  EXPECT_GT(one.result.nodes, 8);
+  EXPECT_EQ(one.result.objective, two.result.objective);
+  EXPECT_EQ(one.result.bound, two.result.bound);
+  EXPECT_EQ(one.x, two.x);
+}
+
+TEST(BranchAndBound, BothEnginesAndAllNumbersOfThreadsAgree) {
+  SKIP_WITHOUT(kBackend);
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    const Problem problem = Portfolio(12, 3, seed);
+    std::vector<double> objectives;
+    for (const char* engine : {"engine=conic", "engine=outer"}) {
+      for (const int threads : {1, 3}) {
+        sy_control control = Unlimited(threads);
+        control.relative_gap = 1e-6;
+        const BackendAnswer answer = Answer(problem, control, {engine});
+        ASSERT_EQ(answer.result.termination, SY_OPTIMAL) << engine << ": " << answer.text;
+        objectives.push_back(answer.result.objective);
+        EXPECT_LE(answer.result.bound, answer.result.objective);
+      }
+    }
+    for (const double objective : objectives) EXPECT_NEAR(objective, objectives[0], 2e-6);
+  }
+}
+
+TEST(BranchAndBound, StopsAtNodesWithABound) {
+  SKIP_WITHOUT(kBackend);
+  const Problem problem = Portfolio(18, 4, 1);
+  sy_control control = Unlimited(1);
+  control.nodes = 5;
+  const BackendAnswer answer = Answer(problem, control);
+  EXPECT_EQ(answer.result.termination, SY_NODE_LIMIT) << answer.text;
+  EXPECT_LE(answer.result.nodes, 6);
+  EXPECT_TRUE(std::isfinite(answer.result.bound));
+  sy_control free = Unlimited(2);
+  free.seconds = 20;
+  EXPECT_LE(answer.result.bound, Answer(problem, free).result.objective + 1e-9);
+}
+
+TEST(BranchAndBound, ProvesACutoffAndStopsAtATarget) {
+  SKIP_WITHOUT(kBackend);
+  const Problem problem = Portfolio(12, 3, 2);
+  const double optimum = Answer(problem, Unlimited(1)).result.objective;
+  sy_control control = Unlimited(1);
+  control.cutoff = optimum - 0.01;
+  const BackendAnswer none = Answer(problem, control);
+  EXPECT_EQ(none.result.termination, SY_CUTOFF) << none.text;
+  EXPECT_EQ(none.result.primal, SY_NO_POINT);
+  control = Unlimited(1);
+  control.target = optimum + 0.5;
+  const BackendAnswer early = Answer(problem, control);
+  EXPECT_TRUE(early.result.termination == SY_TARGET || early.result.termination == SY_OPTIMAL);
+  EXPECT_LE(early.result.objective, optimum + 0.5);
+}
+
+TEST(BranchAndBound, TellsBoundsThatRiseAndPointsThatImprove) {
+  SKIP_WITHOUT(kBackend);
+  struct Heard {
+    std::vector<double> bounds, objectives;
+    std::int64_t nodes = 0;
+  } heard;
+  sy_control control = Unlimited(1);
+  control.context = &heard;
+  control.progress = [](void* context, const sy_progress* told) noexcept -> std::int32_t {
+    auto& all = *static_cast<Heard*>(context);
+    if (std::isfinite(told->bound)) all.bounds.push_back(told->bound);
+    if (told->incumbent != nullptr) all.objectives.push_back(told->objective);
+    all.nodes = std::max(all.nodes, told->nodes);
+    return 0;
+  };
+  const BackendAnswer answer = Answer(Portfolio(16, 4, 5), control);
+  ASSERT_EQ(answer.result.termination, SY_OPTIMAL);
+  ASSERT_FALSE(heard.objectives.empty());
+  EXPECT_TRUE(std::is_sorted(heard.bounds.begin(), heard.bounds.end()));
+  EXPECT_TRUE(std::is_sorted(heard.objectives.rbegin(), heard.objectives.rend()));
+  EXPECT_EQ(heard.objectives.back(), answer.result.objective);
+}
+
+TEST(BranchAndBound, BeginsWithTheUsersIntegers) {
+  SKIP_WITHOUT(kBackend);
+  const Problem problem = Portfolio(12, 3, 4);
+  const BackendAnswer best = Answer(problem, Unlimited(1));
+  ASSERT_EQ(best.result.termination, SY_OPTIMAL);
+  MathematicalProgram prog;  // the same by the program's interface: integers known, the rest not
+  const auto z = prog.NewBinaryVariables(2, "z");
+  const auto y = prog.NewContinuousVariables(1, "y");
+  prog.AddLinearCost(z[0] + 2 * z[1] + y[0]);
+  prog.AddConstraint(z[0] + z[1] >= 1);
+  prog.AddBoundingBoxConstraint(0.25, 3, y[0]);
+  SolverOptions options;
+  options.options["org.switchyard.branch-and-bound"]["dives"] = 0;
+  Eigen::VectorXd start(3);
+  start << 0, 1, std::nan("");
+  const auto result = SolverInterface(kBackend, Built()).Solve(prog, start, options);
+  EXPECT_EQ(result.termination, Termination::kOptimal);
+  EXPECT_NEAR(result.objective, 1.25, 1e-6);
+}
+
+TEST(BranchAndBound, SaysWhyAnEngineDoesNotServe) {
+  SKIP_WITHOUT(kBackend);
+  const ProblemData d = RandomProgram(ProgramClass::kSemidefinite, 1);
+  const BackendAnswer answer = Answer(Problem(d), Unlimited(1), {"engine=outer"});
+  EXPECT_EQ(answer.status, SY_E_UNSUPPORTED);
+  EXPECT_THAT(answer.error,
+              HasSubstr("engine outer takes linear objectives, rows and second-order cones, and "
+                        "cone[0] is positive semidefinite"));
+}
+
+TEST(BranchAndBound, ServesProgramsWithIntegersAndConesUnnamed) {
+  SKIP_WITHOUT(kBackend);
+  const Problem problem = Portfolio(6, 2, 1);
+  const auto ranked = Built().Rank(problem.view());
+  ASSERT_FALSE(ranked.empty());
+  EXPECT_TRUE(ranked[0].suitable);
+  EXPECT_EQ(ranked[0].backend->short_name, kBackend);
+  const auto linear = Built().Rank(Problem(RandomProgram(ProgramClass::kLinear, 1)).view());
+  if (IsThere("highs")) {
+    EXPECT_NE(linear[0].backend->short_name, kBackend);
+  }
+}
+
+}  // namespace
+}  // namespace switchyard::testing
