@@ -38,7 +38,7 @@ ConicEngine::ConicEngine(const sy_problem& problem, const sy_problem& relaxation
 
 // The backend is given what was decided, of integers, and what that fixes; the proof uses all that
 // follows from it.
-Relaxed ConicEngine::Solve(const NodeBoxes& boxes, double cutoff, int /*rounds*/) {
+void ConicEngine::SetBoxes(const NodeBoxes& boxes) {
   for (std::int32_t j = 0; j < problem_.num_vars; ++j) {
     const auto at = static_cast<std::size_t>(j);
     const bool told = boxes.IsInteger(j) || boxes.IsFixed(j);
@@ -46,6 +46,18 @@ Relaxed ConicEngine::Solve(const NodeBoxes& boxes, double cutoff, int /*rounds*/
     upper_[at] = told ? boxes.upper(j) : OpenEnd(relaxation_.x_upper, j, kInfinity);
   }
   loaded_->SetBounds(lower_, upper_);
+}
+
+Relaxed ConicEngine::SolveFinely(const NodeBoxes& boxes, double cutoff) {
+  constexpr double kFine = 1e-11;
+  SetBoxes(boxes);
+  sy_control control = budget_.Part(1);
+  control.feasibility = control.optimality = kFine;
+  return Judge(loaded_->Solve(control), boxes, cutoff);
+}
+
+Relaxed ConicEngine::Solve(const NodeBoxes& boxes, double cutoff, int /*rounds*/) {
+  SetBoxes(boxes);
   sy_control control = budget_.Part(1);
   control.cutoff = cutoff;
   Relaxed relaxed = Judge(loaded_->Solve(control), boxes, cutoff);

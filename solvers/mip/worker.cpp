@@ -106,7 +106,7 @@ Relaxed Worker::RelaxOtherwise() {
 
 void Worker::LearnFrom(const Relaxed& relaxed) {
   const Step& step = node_->step;
-  if (step.variable < 0 || length_ < 0) return;
+  if (step.variable < 0) return;
   const bool nothing = relaxed.state == State::kEmpty || relaxed.state == State::kCutoff;
   const double to = nothing ? cutoff_ : relaxed.bound.value;
   if (std::isfinite(to) && std::isfinite(step.from)) ledger_.See(step, to - step.from);
@@ -195,7 +195,12 @@ Worker::End Worker::JudgeIntegral(Relaxed& relaxed) {
   if (IsFixed()) {
     if (rest.state == State::kTrouble) rest = RelaxOtherwise();
     const bool nothing = rest.state == State::kEmpty || rest.state == State::kCutoff;
-    const double proven = nothing ? cutoff_ : std::max(bound_, rest.bound.value);
+    double proven = nothing ? cutoff_ : std::max(bound_, rest.bound.value);
+    if (proven < cutoff_ && fixed_) {
+      const Relaxed fine = fixed_->SolveFinely(boxes_, cutoff_);
+      const bool none = fine.state == State::kEmpty || fine.state == State::kCutoff;
+      proven = none ? cutoff_ : std::max(proven, fine.bound.value);
+    }
     if (proven >= cutoff_) {
       ledger_.Close(proven);
     } else {

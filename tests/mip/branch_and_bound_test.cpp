@@ -100,14 +100,14 @@ TEST(BranchAndBound, BothEnginesAndAllNumbersOfThreadsAgree) {
     for (const char* engine : {"engine=conic", "engine=outer"}) {
       for (const int threads : {1, 3}) {
         sy_control control = Unlimited(threads);
-        control.relative_gap = 1e-5;
+        control.relative_gap = 1e-6;
         const BackendAnswer answer = Answer(problem, control, {engine});
         ASSERT_EQ(answer.result.termination, SY_OPTIMAL) << engine << ": " << answer.text;
         objectives.push_back(answer.result.objective);
         EXPECT_LE(answer.result.bound, answer.result.objective);
       }
     }
-    for (const double objective : objectives) EXPECT_NEAR(objective, objectives[0], 2e-5);
+    for (const double objective : objectives) EXPECT_NEAR(objective, objectives[0], 2e-6);
   }
 }
 
