@@ -2,12 +2,15 @@
 // cone its dimensions, the distance of a point, and the move of a dual into the dual cone.
 #pragma once
 
-#include <Eigen/Core>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <utility>
+#include <vector>
+
+#include "switchyard/smallest_eigenvalue.hpp"
 
 namespace switchyard::cones_detail {
 
@@ -122,35 +125,27 @@ inline const char* SemidefiniteNeed(int dim, double) {
   return OrderOf(dim) >= 0 ? nullptr : "a dimension of k(k+1)/2";
 }
 
-/// The smallest eigenvalue of smat(s), and how far from the true one it may be.
-struct Spectrum {
-  double smallest = 0;
-  double rounding = 0;
-};
-
-inline Spectrum SpectrumOf(const double* s, int dim) {
-  const Eigen::Index k = OrderOf(dim);
-  if (k <= 0) return {};
-  Eigen::MatrixXd matrix(k, k);
+/// Of smat(s).
+inline SmallestEigenvalue SmallestOf(const double* s, int dim) {
+  const int order = OrderOf(dim);
+  if (order <= 0) return {};
+  const auto n = static_cast<std::size_t>(order);
+  std::vector<double> matrix(n * n);
   const double root = std::sqrt(0.5);
-  for (Eigen::Index j = 0; j < k; ++j) {
-    for (Eigen::Index i = 0; i < j; ++i) matrix(j, i) = root * *s++;
-    matrix(j, j) = *s++;
+  for (std::size_t j = 0; j < n; ++j) {
+    for (std::size_t i = 0; i < j; ++i) matrix[j * n + i] = root * *s++;
+    matrix[j * n + j] = *s++;
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(matrix, Eigen::EigenvaluesOnly);
-  const Eigen::VectorXd& values = solver.eigenvalues();
-  const double radius = std::max(std::abs(values[0]), std::abs(values[k - 1]));
-  return {values[0],
-          static_cast<double>(k - 1) * 4 * std::numeric_limits<double>::epsilon() * radius};
+  return SmallestEigenvalueOf(std::move(matrix), n);
 }
 
 inline double SemidefiniteViolation(const double* s, int dim, double) {
-  return Positive(-SpectrumOf(s, dim).smallest);
+  return Positive(-SmallestOf(s, dim).value);
 }
 
 inline void SemidefiniteIntoDual(double* y, int dim, double) {
-  const Spectrum spectrum = SpectrumOf(y, dim);
-  const double shift = Positive(spectrum.rounding - spectrum.smallest);
+  const SmallestEigenvalue smallest = SmallestOf(y, dim);
+  const double shift = Positive(smallest.rounding - smallest.value);
   int at = 0;  // of the diagonal's entry in column j
   for (int j = 0; j < OrderOf(dim); ++j, at += j + 1) y[at] += shift;
 }
