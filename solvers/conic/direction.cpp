@@ -62,7 +62,7 @@ double InteriorPoint::TryDirection(double proximal, bool whole) {
   kkt_.set_proximal(proximal);
   left_ = contraction_ = 0;
   corrections_ = 0;
-  kkt_.Factor(cones_, workers_);
+  kkt_.Factor(cones_);
   return Predict() && Correct() ? left_ : kInfinity;
 }
 

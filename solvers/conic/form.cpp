@@ -64,7 +64,8 @@ void Form::SortVariables(const ProblemData& d) {
   }
 }
 
-// Equal cones side by side, as many as their kind takes; what is left over one by one.
+// Equal cones side by side, as many as their kind takes; what is left over one by one. Groups are
+// what threads share.
 void Form::SortCones(const ProblemData& d) {
   using Key = std::tuple<sy_cone_kind, Index, double>;
   std::map<Key, std::vector<Index>> alike;  // their first rows
@@ -78,9 +79,9 @@ void Form::SortCones(const ProblemData& d) {
     alike[{is_rotated ? SY_CONE_SECOND_ORDER : cone.kind, cone.dim, cone.parameter}].push_back(
         first);
   }
+  constexpr std::size_t kTogether = 512;  // cones of a group, at most
   const auto add = [&](const Key& key, const std::vector<Index>& firsts, std::size_t begin,
                        std::size_t end, Index lanes) {
-    if (begin == end) return;
     const auto [kind, dim, parameter] = key;
     ConeGroup group{
         kind, parameter, {static_cast<Index>(end - begin), dim, lanes}, shape.cone_rows};
@@ -93,14 +94,20 @@ void Form::SortCones(const ProblemData& d) {
     shape.cone_rows += group.layout.rows();
     cones.push_back(group);
   };
+  const auto each_group = [&](const Key& key, const std::vector<Index>& firsts, std::size_t begin,
+                              std::size_t end, Index lanes) {
+    for (; begin < end; begin += kTogether) {
+      add(key, firsts, begin, std::min(end, begin + kTogether), lanes);
+    }
+  };
   for (const bool side_by_side : {true, false}) {  // those on cache lines first
     for (const auto& [key, firsts] : alike) {
       const auto lanes = static_cast<std::size_t>(cones::FindKind(std::get<0>(key))->lanes);
       const std::size_t whole = lanes > 1 ? firsts.size() / lanes * lanes : 0;
       if (side_by_side) {
-        add(key, firsts, 0, whole, static_cast<Index>(lanes));
+        each_group(key, firsts, 0, whole, static_cast<Index>(lanes));
       } else {
-        add(key, firsts, whole, firsts.size(), 1);
+        each_group(key, firsts, whole, firsts.size(), 1);
       }
     }
   }

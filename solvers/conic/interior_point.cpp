@@ -15,12 +15,12 @@ InteriorPoint::InteriorPoint(const Form& form, Kkt& kkt, const InteriorPointOpti
                              Watch watch, Judge judge)
     : form_(form),
       kkt_(kkt),
-      cones_(form),
+      workers_(options.threads),
+      cones_(form, &workers_),
       options_(options),
       watch_(std::move(watch)),
       judge_(std::move(judge)),
-      workers_(options.threads),
-      residuals_(form),
+      residuals_(form, &workers_),
       right_(form.shape) {
   const Shape& s = form.shape;
   for (Direction* d : {&constant_, &predictor_, &corrector_, &recentered_}) {
@@ -57,7 +57,7 @@ void InteriorPoint::Start() {
     return;
   }
   cones_.ScaleByIdentity();
-  kkt_.Factor(cones_, workers_);
+  kkt_.Factor(cones_);
   KktStep found(s);
   const auto solve = [&](bool costs, bool sides) {
     for (Index j = 0; j < s.vars; ++j) right_.x[j] = costs ? -form_.q[j] : 0;

@@ -89,12 +89,11 @@ class InteriorPoint {
 
   const Form& form_;
   Kkt& kkt_;
+  linalg::Workers workers_;
   ProductCone cones_;
   const InteriorPointOptions options_;
   const Watch watch_;
   const Judge judge_;
-
-  linalg::Workers workers_;
 
   Iterate at_;
   Residuals residuals_;

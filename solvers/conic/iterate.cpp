@@ -15,12 +15,13 @@ using linalg::MaxAbs;
 double Distance::Worst() const { return std::max({primal, dual_terms, gap}); }
 double Distance::WorstByTerms() const { return std::max({primal_terms, dual_terms, gap}); }
 
-Residuals::Residuals(const Form& form)
+Residuals::Residuals(const Form& form, linalg::Workers* workers)
     : r(form.shape),
       p_x(form.shape.vars),
       a_x(form.shape.rows()),
       h(form.shape.slacks()),
       form_(form),
+      workers_(workers),
       row_unit_(form.shape.rows()),
       column_unit_(form.shape.vars),
       row_largest_(form.shape.rows()),
@@ -46,16 +47,16 @@ Residuals::Residuals(const Form& form)
 
 void Residuals::Compute(const Iterate& at) {
   const Shape& s = form_.shape;
-  Multiply(form_.A, at.x.data(), a_x.data());
+  Multiply(form_.A, at.x.data(), a_x.data(), workers_);
   std::fill(p_x.begin(), p_x.end(), 0.0);
   AddProduct(form_.P, 1, at.x.data(), p_x.data());
   quadratic = Dot(at.x, p_x);
   std::fill(columns_.begin(), columns_.end(), 0.0);
-  AddSlackColumns(form_, at.y, at.z, rows_, columns_);
+  AddSlackColumns(form_, at.y, at.z, workers_, rows_, columns_);
   for (Index j = 0; j < s.vars; ++j) r.x[j] = p_x[j] + form_.q[j] * at.tau - columns_[j];
   const double* b = form_.b.data() + s.conic_rows();
   for (Index i = 0; i < s.equations; ++i) r.y[i] = a_x[s.conic_rows() + i] - b[i] * at.tau;
-  EachSlack(s, at.x, a_x,
+  EachSlack(s, at.x, a_x, workers_,
             [&](Index slack, double g_x) { r.z[slack] = g_x - h[slack] * at.tau - at.s[slack]; });
   cost_ = Dot(form_.q, at.x);
   worth_ = Dot(b, at.y.data(), at.y.size()) + Dot(h, at.z);

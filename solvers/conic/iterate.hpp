@@ -33,7 +33,7 @@ struct Distance {
 ///   -q'x - x'Px / tau + e'y + h'z - kappa.
 class Residuals {
  public:
-  explicit Residuals(const Form& form);
+  explicit Residuals(const Form& form, linalg::Workers* workers = nullptr);
 
   void Compute(const Iterate& at);
 
@@ -51,6 +51,7 @@ class Residuals {
   void MeasureColumns(const Iterate& at);
 
   const Form& form_;
+  linalg::Workers* const workers_;
   Vector row_unit_, column_unit_;        // the problem's unit over ours
   Vector row_largest_, column_largest_;  // largest entries of the problem's A
   Vector rows_, columns_;

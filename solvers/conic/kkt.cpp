@@ -141,7 +141,7 @@ void Kkt::TakeMoreDigits() {
   next_ = kTwofold;
 }
 
-void Kkt::Factor(ProductCone& cones, linalg::Workers& workers) {
+void Kkt::Factor(const ProductCone& cones) {
   proximal_ = next_;
   trusted_ = false;
   Weigh(cones);
@@ -149,7 +149,7 @@ void Kkt::Factor(ProductCone& cones, linalg::Workers& workers) {
   std::copy(constant_.begin(), constant_.end(), value_.begin());
   std::fill(value_low_.begin(), value_low_.end(), 0.0);
   FillValues(form_, *plan_, weights_, value);
-  raised_ = ldl_.Factor({value.high, value.low}, linalg::PivotRule{proximal_}, &workers);
+  raised_ = ldl_.Factor({value.high, value.low}, linalg::PivotRule{proximal_}, cones.workers());
 }
 
 void Kkt::Weigh(const ProductCone& cones) {
@@ -158,14 +158,18 @@ void Kkt::Weigh(const ProductCone& cones) {
   weights_.proximal = proximal_;
   weights_.uncurved = twofold() ? proximal_ : std::max(proximal_, kUncurved);
   weights_.cones.resize(cones.parts().size());
-  for (std::size_t p = 0; p < cones.parts().size(); ++p) {
+  const auto weigh = [&](std::size_t p) {
     const cones::Group& group = *cones.parts()[p].group;
     KktWeights::Part& part = weights_.cones[p];
     part.v.resize(static_cast<std::size_t>(group.layout().rows()) * group.rank());
     part.w.resize(static_cast<std::size_t>(group.layout().count) * group.rank());
     group.Inverse(proximal_, weights_.cone_row.data() + cones.parts()[p].first, part.v.data(),
                   part.w.data());
-  }
+  };
+  linalg::EachPart(cones.workers(), cones.parts().size(), 1,
+                   [&](std::size_t begin, std::size_t end) {
+                     for (std::size_t p = begin; p < end; ++p) weigh(p);
+                   });
 }
 
 /// Of a kept row: what its sides say together, and what each then says alone.
@@ -225,12 +229,12 @@ void Kkt::Approximate(const ProductCone& cones, const Triple& right, KktStep& st
   if (twofold()) {
     const linalg::NumbersOf<double> condensed{right_.data(), right_low_.data()};
     CondenseTwofold(form_, weights_, right, right_.size() - right.x.size() - right.y.size(),
-                    condensed);
-    ldl_.Solve(condensed);
-    ExpandTwofold(form_, weights_, right, {condensed.high, condensed.low}, step);
+                    cones.workers(), condensed);
+    ldl_.Solve(condensed, cones.workers());
+    ExpandTwofold(form_, weights_, right, {condensed.high, condensed.low}, cones.workers(), step);
   } else {
     CondensePlain(cones, right);
-    ldl_.Solve({right_.data(), nullptr});
+    ldl_.Solve({right_.data(), nullptr}, cones.workers());
     ExpandPlain(cones, right, step);
   }
 }
@@ -257,7 +261,7 @@ void Kkt::CondensePlain(const ProductCone& cones, const Triple& right) {
   }
   for (const KeptCone& cone : kept_cones_) TakeSides(cone, c);
   std::copy(right.x.begin(), right.x.end(), right_.begin());
-  AddTransposed(form_.A, 1, rows_.data(), right_.data());
+  AddTransposed(form_.A, 1, rows_.data(), right_.data(), cones.workers());
   for (Index j = 0; j < s.bounded; ++j) {
     right_[j] += weight[s.lower_bounds() - s.cone_rows + j] * c[s.lower_bounds() + j];
   }
@@ -274,10 +278,10 @@ void Kkt::ExpandPlain(const ProductCone& cones, const Triple& right, KktStep& st
   const Vector& c = right.z;
   std::copy_n(right_.begin(), s.vars, step.x.begin());
   for (Index i = 0; i < s.equations; ++i) step.y[i] = -right_[s.vars + i];
-  linalg::Multiply(form_.A, step.x.data(), step.a_x.data());
+  linalg::Multiply(form_.A, step.x.data(), step.a_x.data(), cones.workers());
   for (Index i = 0; i < s.cone_rows; ++i) slack_[i] = c[i] - step.a_x[i];
   cones.Divide(slack_, proximal_, step.z);
-  EachSlack(s, step.x, step.a_x, [&](Index slack, double g_x) {
+  EachSlack(s, step.x, step.a_x, cones.workers(), [&](Index slack, double g_x) {
     if (slack >= s.cone_rows) step.z[slack] = weight[slack - s.cone_rows] * (c[slack] - g_x);
   });
   for (std::size_t k = 0; k < plan_->kept_row.size(); ++k) {
@@ -293,24 +297,36 @@ void Kkt::Leave(const ProductCone& cones, const Triple& right, const KktStep& st
   Triple& raw = left.raw;
   raw.x = right.x;
   AddProduct(form_.P, -1, step.x.data(), raw.x.data());
-  AddSlackColumns(form_, step.y, step.z, rows_, raw.x);
+  AddSlackColumns(form_, step.y, step.z, cones.workers(), rows_, raw.x);
   for (Index i = 0; i < s.equations; ++i) {
     raw.y[i] = right.y[i] - step.a_x[s.conic_rows() + i];
   }
   cones.Multiply(step.z, raw.z);
-  EachSlack(s, step.x, step.a_x,
+  EachSlack(s, step.x, step.a_x, cones.workers(),
             [&](Index slack, double g_x) { raw.z[slack] = right.z[slack] - g_x - raw.z[slack]; });
   left.z = raw.z;
   cones.Unmended(left.z);
 }
 
-/// Makes the image orthogonal to those of the steps before, and the step with it.
-void Kkt::Orthogonalize(const std::vector<Direction>& before, const Goal& goal) {
-  for (const Direction& d : before) {
+/// Makes the image orthogonal to those of the last of `used` steps before, and the step with it.
+void Kkt::Orthogonalize(std::size_t used, const Goal& goal) {
+  for (std::size_t k = used - std::min(used, kDirections); k < used; ++k) {
+    const Direction& d = directions_[k % kDirections];
     const double overlap = Dot(image_, d.image, goal) / d.square;
     AddMultiple(-overlap, d.image, image_);
     AddStep(-overlap, d.step, step_);
   }
+}
+
+/// Step and image go to the place of the oldest, whose room is theirs from now on.
+void Kkt::KeepDirection(std::size_t number, double square) {
+  if (directions_.size() < std::min(number + 1, kDirections)) {
+    directions_.push_back({KktStep(form_.shape), Remainder(form_.shape), 0});
+  }
+  Direction& kept = directions_[number % kDirections];
+  std::swap(kept.step, step_);
+  std::swap(kept.image, image_);
+  kept.square = square;
 }
 
 Kkt::Outcome Kkt::Solve(const ProductCone& cones, const Triple& right, const Goal& goal,
@@ -339,8 +355,8 @@ double Kkt::SolveOnce(const ProductCone& cones, const Triple& right, const Goal&
 Kkt::Outcome Kkt::Correct(const ProductCone& cones, const Triple& right, const Goal& goal,
                           KktStep& found) {
   Outcome outcome;
-  directions_.clear();
-  step_ = found;
+  std::size_t used = 0;
+  std::swap(step_, found);
   Clear(found);
   image_.raw = right;
   image_.z = right.z;
@@ -353,7 +369,7 @@ Kkt::Outcome Kkt::Correct(const ProductCone& cones, const Triple& right, const G
       Approximate(cones, left_.raw, step_);
       Leave(cones, left_.raw, step_, image_);  // image = left - that
       Reverse(left_, image_);
-      Orthogonalize(directions_, goal);
+      Orthogonalize(used, goal);
       ++corrections_;
     }
     const double square = Dot(image_, image_, goal);
@@ -367,8 +383,7 @@ Kkt::Outcome Kkt::Correct(const ProductCone& cones, const Triple& right, const G
     outcome.contraction = k > 0 ? std::sqrt(left_square / before) : 0;
     outcome.corrections = k;
     if (outcome.left <= 1 || outcome.contraction > kStalled) return outcome;
-    if (directions_.size() == kDirections) directions_.erase(directions_.begin());
-    directions_.push_back({step_, image_, square});
+    KeepDirection(used++, square);
   }
   outcome.left = Largest(left_, goal);
   return outcome;

@@ -41,8 +41,9 @@ class Kkt {
 
   /// As if nothing had been solved yet.
   void Restart();
-  /// The factors at the cones' current scaling.
-  void Factor(ProductCone& cones, linalg::Workers& workers);
+  /// The factors at the cones' current scaling. Whoever shares what is done to the cones shares
+  /// this and the solves, too.
+  void Factor(const ProductCone& cones);
   /// What may be left of a, and of b and c.
   struct Goal {
     double dual = 0, primal = 0;
@@ -114,7 +115,8 @@ class Kkt {
     double square;  // of the image
   };
   Outcome Correct(const ProductCone& cones, const Triple& right, const Goal& goal, KktStep& found);
-  void Orthogonalize(const std::vector<Direction>& before, const Goal& goal);
+  void Orthogonalize(std::size_t used, const Goal& goal);
+  void KeepDirection(std::size_t number, double square);
 
   Kkt(const std::shared_ptr<const KktPlan>& plan, const Form& form);
   Kkt(const Form& form, std::shared_ptr<const KktPlan> plan, const linalg::BlockLdl& symbolic);
@@ -134,8 +136,8 @@ class Kkt {
   Vector rows_, slack_;
   Remainder left_, image_;
   KktStep step_;
-  std::vector<Direction> directions_;
-  bool trusted_ = false;  // these factors left next to nothing at once
+  std::vector<Direction> directions_;  // the latest, in turns
+  bool trusted_ = false;               // these factors left next to nothing at once
   double trusted_left_ = 0;
   int raised_ = 0;
   int corrections_ = 0;

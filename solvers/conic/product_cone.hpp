@@ -11,7 +11,9 @@ namespace switchyard::conic {
 /// K x R_+ over all slacks: what cones::Group says of one, of all. Vectors are those of the slacks.
 class ProductCone {
  public:
-  explicit ProductCone(const Form& form);
+  /// `workers`, if any, share what is done to slacks, and outlive it.
+  explicit ProductCone(const Form& form, linalg::Workers* workers = nullptr);
+  [[nodiscard]] linalg::Workers* workers() const { return workers_; }
 
   [[nodiscard]] double degree() const { return degree_; }
   [[nodiscard]] bool symmetric() const { return symmetric_; }
@@ -43,12 +45,21 @@ class ProductCone {
   [[nodiscard]] const Vector& orthant() const { return h_; }
 
  private:
+  /// body(part) for all, by whoever is free.
+  template <class Body>
+  void EachGroup(Body&& body) const;
+  /// body(begin, end) for parts of the numbers behind the cones.
+  template <class Body>
+  void EachRange(Body&& body) const;
+
+  linalg::Workers* const workers_;
   std::vector<Part> parts_;
   Index orthant_;  // first slack
   Index count_;
   double degree_ = 0;
   bool symmetric_ = true;
   mutable Vector mended_;
+  mutable std::vector<double> found_;  // by each group
   Vector h_;
 };
 

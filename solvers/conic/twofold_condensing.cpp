@@ -9,12 +9,6 @@ using Number = linalg::Twofold<double>;
 
 Number At(const linalg::Numbers& v, std::size_t i) { return {v.high[i], v.low[i]}; }
 
-void Add(const Number& v, std::size_t i, const linalg::NumbersOf<double>& to) {
-  const Number sum = At({to.high, to.low}, i) + v;
-  to.high[i] = sum.high;
-  to.low[i] = sum.low;
-}
-
 /// out = (H + r)^-1 c for the rows of a cone.
 void DivideCone(const ConeGroup& group, const KktWeights& weights, std::size_t part, Index cone,
                 const std::vector<Number>& c, std::vector<Number>& out) {
@@ -33,27 +27,40 @@ void DivideCone(const ConeGroup& group, const KktWeights& weights, std::size_t p
   }
 }
 
-/// take(row, (H + r)^-1 of `side(row)`) for all rows of cones.
+/// take(row, (H + r)^-1 of `side(row)`) for all rows of cones; `workers` share the groups.
 template <class Side, class Take>
-void DivideCones(const Form& form, const KktWeights& weights, Side&& side, Take&& take) {
-  std::vector<Number> c, out;
-  for (std::size_t p = 0; p < form.cones.size(); ++p) {
+void DivideCones(const Form& form, const KktWeights& weights, linalg::Workers* workers, Side&& side,
+                 Take&& take) {
+  const auto divide = [&](std::size_t p) {
     const ConeGroup& group = form.cones[p];
-    c.resize(group.layout.dim);
-    out.resize(group.layout.dim);
+    std::vector<Number> c(group.layout.dim), out(group.layout.dim);
     for (Index cone = 0; cone < group.layout.count; ++cone) {
       const auto row = [&](Index i) { return group.first + group.layout.Row(cone, i); };
       for (Index i = 0; i < group.layout.dim; ++i) c[i] = side(row(i));
       DivideCone(group, weights, p, cone, c, out);
       for (Index i = 0; i < group.layout.dim; ++i) take(row(i), out[i]);
     }
-  }
+  };
+  linalg::EachPart(workers, form.cones.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p) divide(p);
+  });
+}
+
+/// body(i) for i in [0, count); `workers` share them.
+template <class Body>
+void Each(linalg::Workers* workers, Index count, Body&& body) {
+  constexpr std::size_t kGrain = 1024;
+  linalg::EachPart(workers, static_cast<std::size_t>(count), kGrain,
+                   [&](std::size_t begin, std::size_t end) {
+                     for (std::size_t i = begin; i < end; ++i) body(static_cast<Index>(i));
+                   });
 }
 
 }  // namespace
 
 void CondenseTwofold(const Form& form, const KktWeights& weights, const Triple& right,
-                     std::size_t kept, const linalg::NumbersOf<double>& condensed) {
+                     std::size_t kept, linalg::Workers* workers,
+                     const linalg::NumbersOf<double>& condensed) {
   const Shape& s = form.shape;
   const std::size_t own = right.x.size() + right.y.size();
   std::copy(right.x.begin(), right.x.end(), condensed.high);
@@ -63,35 +70,41 @@ void CondenseTwofold(const Form& form, const KktWeights& weights, const Triple& 
   const auto weighed = [&](Index slack) {
     return Number::Product(weights.slack[slack - s.cone_rows], right.z[slack]);
   };
-  const auto add_row = [&](Index r, const Number& v) {
-    for (Index e = form.A.row_start[r]; e < form.A.row_start[r + 1]; ++e) {
-      Add(v * form.A.by_row[e], form.A.column[e], condensed);
-    }
-  };
+  std::vector<Number> side(s.conic_rows());  // R^-1 c
   DivideCones(
-      form, weights, [&](Index r) { return Number{right.z[r]}; }, add_row);
+      form, weights, workers, [&](Index r) { return Number{right.z[r]}; },
+      [&](Index r, const Number& v) { side[r] = v; });
   for (Index i = 0; i < s.inequalities; ++i) {
     const Index r = s.cone_rows + i;
-    add_row(r, i < s.ranges ? weighed(r) - weighed(s.range_tops() + i) : weighed(r));
+    side[r] = i < s.ranges ? weighed(r) - weighed(s.range_tops() + i) : weighed(r);
   }
-  for (Index j = 0; j < s.bounded; ++j) Add(weighed(s.lower_bounds() + j), j, condensed);
-  for (Index j = 0; j < s.boxed; ++j) Add(-weighed(s.upper_bounds() + j), j, condensed);
+  Each(workers, s.vars, [&](Index j) {
+    Number sum = At({condensed.high, condensed.low}, j);
+    for (Index e = form.A.column_start[j]; e < form.A.column_start[j + 1]; ++e) {
+      const Index r = form.A.row[e];
+      if (r < s.conic_rows()) sum += side[r] * form.A.by_column[e];
+    }
+    if (j < s.bounded) sum += weighed(s.lower_bounds() + j);
+    if (j < s.boxed) sum -= weighed(s.upper_bounds() + j);
+    condensed.high[j] = sum.high;
+    condensed.low[j] = sum.low;
+  });
 }
 
 void ExpandTwofold(const Form& form, const KktWeights& weights, const Triple& right,
-                   const linalg::Numbers& solution, KktStep& step) {
+                   const linalg::Numbers& solution, linalg::Workers* workers, KktStep& step) {
   const Shape& s = form.shape;
   std::copy_n(solution.high, s.vars, step.x.begin());
   for (Index i = 0; i < s.equations; ++i) step.y[i] = -solution.high[s.vars + i];
   std::vector<Number> a_x(form.A.rows);
-  for (Index r = 0; r < form.A.rows; ++r) {
+  Each(workers, form.A.rows, [&](Index r) {
     for (Index e = form.A.row_start[r]; e < form.A.row_start[r + 1]; ++e) {
       a_x[r] += At(solution, form.A.column[e]) * form.A.by_row[e];
     }
     step.a_x[r] = a_x[r].high;
-  }
+  });
   DivideCones(
-      form, weights, [&](Index r) { return Number{right.z[r]} - a_x[r]; },
+      form, weights, workers, [&](Index r) { return Number{right.z[r]} - a_x[r]; },
       [&](Index r, const Number& v) { step.z[r] = v.high; });
   const auto put = [&](Index slack, const Number& g_x) {
     step.z[slack] = ((Number{right.z[slack]} - g_x) * weights.slack[slack - s.cone_rows]).high;

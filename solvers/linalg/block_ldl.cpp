@@ -190,7 +190,8 @@ int BlockLdl::Factor(const Numbers& values, const PivotRule& rule, Workers* work
   const int raised =
       share ? FactorBatches(values, rule, *workers, to) : FactorBatches(values, rule, to);
   if (twofold) KeepInfinite(values, to);
-  return raised + rest_.Factor({to.rest_high.data(), twofold ? to.rest_low.data() : nullptr}, rule);
+  return raised +
+         rest_.Factor({to.rest_high.data(), twofold ? to.rest_low.data() : nullptr}, rule, workers);
 }
 
 // A twofold number that is infinite becomes NaN when something is added.
@@ -255,7 +256,7 @@ int BlockLdl::FactorBatch(const Batch& batch, const Numbers& values, const Pivot
                      triangle);
 }
 
-void BlockLdl::Solve(const NumbersOf<double>& given) const {
+void BlockLdl::Solve(const NumbersOf<double>& given, Workers* workers) const {
   const bool twofold = digits_ == Digits::kTwofold;
   const Made& by = twofold ? twofold_ : plain_;
   NumbersOf<double> b{given.high, twofold ? given.low : nullptr};
@@ -263,19 +264,33 @@ void BlockLdl::Solve(const NumbersOf<double>& given) const {
     by.low.assign(plan_->columns, 0.0);
     b.low = by.low.data();
   }
-  const NumbersOf<double> rest{by.right_high.data(), twofold ? by.right_low.data() : nullptr};
-  for (std::size_t k = 0; k < plan_->rest_column.size(); ++k)
-    rest.high[k] = b.high[plan_->rest_column[k]];
-  for (std::size_t k = 0; twofold && k < plan_->rest_column.size(); ++k) {
-    rest.low[k] = b.low[plan_->rest_column[k]];
+  constexpr double kWorthSharing = 3e4;  // entries of L
+  if (plan_->factor_size < kWorthSharing) workers = nullptr;
+  constexpr std::size_t kBatches = 4;  // at a time
+  const auto each_batch = [&](auto&& body) {
+    EachPart(workers, plan_->batches.size(), kBatches, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) body(plan_->batches[k]);
+    });
+  };
+  each_batch([&](const Batch& batch) { ForwardBatch(batch, b, by); });
+  SolveRest(b, by, workers);
+  each_batch([&](const Batch& batch) { BackwardBatch(batch, by, b); });
+}
+
+// What the batches leave is added up in their order.
+void BlockLdl::SolveRest(const NumbersOf<double>& b, const Made& by, Workers* workers) const {
+  const std::vector<Index>& column = plan_->rest_column;
+  const NumbersOf<double> rest{by.right_high.data(),
+                               b.low != nullptr ? by.right_low.data() : nullptr};
+  for (std::size_t k = 0; k < column.size(); ++k) rest.high[k] = b.high[column[k]];
+  for (std::size_t k = 0; rest.low != nullptr && k < column.size(); ++k) {
+    rest.low[k] = b.low[column[k]];
   }
-  for (const Batch& batch : plan_->batches) ForwardBatch(batch, b, by);
-  rest_.Solve(rest.high, rest.low);
-  for (const Batch& batch : plan_->batches) BackwardBatch(batch, by, b);
-  for (std::size_t k = 0; k < plan_->rest_column.size(); ++k)
-    b.high[plan_->rest_column[k]] = rest.high[k];
-  for (std::size_t k = 0; twofold && k < plan_->rest_column.size(); ++k) {
-    b.low[plan_->rest_column[k]] = rest.low[k];
+  for (const Batch& batch : plan_->batches) AddBorder(batch, by);
+  rest_.Solve(rest.high, rest.low, workers);
+  for (std::size_t k = 0; k < column.size(); ++k) b.high[column[k]] = rest.high[k];
+  for (std::size_t k = 0; rest.low != nullptr && k < column.size(); ++k) {
+    b.low[column[k]] = rest.low[k];
   }
 }
 
@@ -309,7 +324,13 @@ void BlockLdl::ForwardBatch(const Batch& batch, const NumbersOf<double>& b, cons
   std::fill_n(border, batch.border.size() * parts, 0.0);
   const LaneShape shape = ShapeOf(batch, digits_);
   ForwardLanes(shape, by.l.data() + batch.l * parts, x);
-  AddScattered(shape, border, batch.border, {by.right_high.data(), by.right_low.data()});
+}
+
+void BlockLdl::AddBorder(const Batch& batch, const Made& by) const {
+  const std::size_t parts = PartsOf(digits_);
+  const double* border = by.x.data() + (batch.x + batch.column.size()) * parts;
+  AddScattered(ShapeOf(batch, digits_), border, batch.border,
+               {by.right_high.data(), by.right_low.data()});
 }
 
 void BlockLdl::BackwardBatch(const Batch& batch, const Made& by, const NumbersOf<double>& b) const {

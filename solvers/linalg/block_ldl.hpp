@@ -57,9 +57,10 @@ class BlockLdl {
   BlockLdl& operator=(const BlockLdl&) = delete;
   ~BlockLdl() = default;
 
-  /// As Ldl. `workers`, if any, share the blocks, where there are enough; the factors are the same.
+  /// As Ldl. `workers`, if any, share the blocks, where there are enough; factors and solutions are
+  /// the same.
   int Factor(const Numbers& values, const PivotRule& rule, Workers* workers = nullptr);
-  void Solve(const NumbersOf<double>& given) const;
+  void Solve(const NumbersOf<double>& given, Workers* workers = nullptr) const;
 
   [[nodiscard]] double work() const { return plan_->work + rest_.work(); }
   [[nodiscard]] double factor_size() const { return plan_->factor_size + rest_.factor_size(); }
@@ -85,6 +86,8 @@ class BlockLdl {
   int FactorBatch(const Batch& batch, const Numbers& values, const PivotRule& rule, Made& to,
                   double* triangle) const;
   void ForwardBatch(const Batch& batch, const NumbersOf<double>& b, const Made& by) const;
+  void AddBorder(const Batch& batch, const Made& by) const;
+  void SolveRest(const NumbersOf<double>& b, const Made& by, Workers* workers) const;
   void BackwardBatch(const Batch& batch, const Made& by, const NumbersOf<double>& b) const;
 
   std::shared_ptr<const BlockPlan> plan_;

@@ -200,6 +200,11 @@ void SubtractRows(const double* y, Index rows, const Index* row, const NumbersOf
   if (b.low != nullptr) return SubtractTwofoldRows(y, rows, row, b);
   for (Index i = 0; i < rows; ++i) b.high[row[i]] -= y[i];
 }
+void AddToRows(const NumbersOf<double>& v, Index first, const std::vector<Index>& row) {
+  if (v.digits() == Digits::kTwofold) return AddToTwofoldRows(v, first, row);
+  for (const Index r : row) v.high[r] += v.high[first++];
+}
+
 void TakeRows(const NumbersOf<double>& b, Index rows, const Index* row, double* y) {
   if (b.low != nullptr) return TakeTwofoldRows(b, rows, row, y);
   for (Index i = 0; i < rows; ++i) y[i] = b.high[row[i]];

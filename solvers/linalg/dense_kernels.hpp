@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "solvers/linalg/pivots.hpp"
 #include "solvers/linalg/symmetric_pattern.hpp"
@@ -57,6 +58,9 @@ void AddColumn(Digits digits, const double* from, RowRange rows, const Index* pl
 void SubtractRows(const double* y, Index rows, const Index* row, const NumbersOf<double>& b);
 void TakeRows(const NumbersOf<double>& b, Index rows, const Index* row, double* y);
 
+/// v[row[i]] += v[first + i].
+void AddToRows(const NumbersOf<double>& v, Index first, const std::vector<Index>& row);
+
 /// x <- top^-1 x, then y <- below x. Of x (pivots) and y (below_stride) the numbers stand as in a
 /// column.
 void ForwardFront(const Front& front, double* x, double* y);
@@ -73,6 +77,7 @@ void AddTwofoldColumn(const double* from, RowRange rows, const Index* place, Ind
                       double* to);
 void SubtractTwofoldRows(const double* y, Index rows, const Index* row, const NumbersOf<double>& b);
 void TakeTwofoldRows(const NumbersOf<double>& b, Index rows, const Index* row, double* y);
+void AddToTwofoldRows(const NumbersOf<double>& v, Index first, const std::vector<Index>& row);
 void ForwardTwofoldFront(const Front& front, double* x, double* y);
 void BackwardTwofoldFront(const Front& front, const double* inverse_pivot, double* x,
                           const double* y);

@@ -27,7 +27,7 @@ Ldl::Ldl(Planned planned, const std::vector<std::int8_t>& sign)
 Ldl::Ldl(const Ldl& other)
     : elimination_(other.elimination_),
       sign_(other.sign_),
-      high_(other.high_.size()),
+      high_(sign_.size()),
       respects_groups_(other.respects_groups_),
       work_(other.work_),
       factor_size_(other.factor_size_) {
@@ -39,24 +39,26 @@ void Ldl::MakeRoom() {
     simplicial_.emplace(*elimination_, sign_);
   } else {
     fronts_.emplace(*elimination_, sign_, Digits::kPlain);
+    high_.resize(static_cast<std::size_t>(fronts_->room()));
   }
 }
 
-int Ldl::Factor(const Numbers& values, const PivotRule& rule) {
+int Ldl::Factor(const Numbers& values, const PivotRule& rule, Workers* workers) {
   digits_ = values.digits();
   if (digits_ == Digits::kTwofold) {
     fronts_.reset();  // not both
     simplicial_.reset();
     if (!twofold_) twofold_.emplace(*elimination_, sign_, digits_);
+    high_.resize(static_cast<std::size_t>(twofold_->room()));
     low_.resize(high_.size());
-    return twofold_->Factor(values, rule);
+    return twofold_->Factor(values, rule, workers);
   }
   twofold_.reset();
   if (!fronts_ && !simplicial_) MakeRoom();
-  return fronts_ ? fronts_->Factor(values, rule) : simplicial_->Factor(values.high, rule);
+  return fronts_ ? fronts_->Factor(values, rule, workers) : simplicial_->Factor(values.high, rule);
 }
 
-void Ldl::Solve(double* high, double* low) const {
+void Ldl::Solve(double* high, double* low, Workers* workers) const {
   const std::vector<Index>& order = elimination_->order;
   const bool twofold = digits_ == Digits::kTwofold;
   for (std::size_t k = 0; k < order.size(); ++k) high_[k] = high[order[k]];
@@ -64,9 +66,9 @@ void Ldl::Solve(double* high, double* low) const {
     low_[k] = low != nullptr ? low[order[k]] : 0;
   }
   if (twofold) {
-    twofold_->Solve({high_.data(), low_.data()});
+    twofold_->Solve({high_.data(), low_.data()}, workers);
   } else if (fronts_) {
-    fronts_->Solve({high_.data(), nullptr});
+    fronts_->Solve({high_.data(), nullptr}, workers);
   } else {
     simplicial_->Solve(high_.data());
   }

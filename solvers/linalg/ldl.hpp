@@ -24,9 +24,9 @@ class Ldl {
 
   /// `values`: one for each entry of the pattern; where they are twofold, so are the factors. How
   /// many pivots were raised.
-  int Factor(const Numbers& values, const PivotRule& rule);
+  int Factor(const Numbers& values, const PivotRule& rule, Workers* workers = nullptr);
   /// (high + low) <- A^-1 (high + low); `low` may be absent; plain factors let it be.
-  void Solve(double* high, double* low) const;
+  void Solve(double* high, double* low, Workers* workers = nullptr) const;
 
   /// Did the order respect the groups of the wish?
   [[nodiscard]] bool respects_groups() const { return respects_groups_; }

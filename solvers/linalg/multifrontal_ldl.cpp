@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace switchyard::linalg {
 namespace {
@@ -18,40 +19,56 @@ std::int64_t FrontSize(const Supernode& node) {
 
 MultifrontalLdl::MultifrontalLdl(const Elimination& elimination,
                                  const std::vector<std::int8_t>& sign, Digits digits)
-    : tree_(FindSupernodes(elimination)), digits_(digits), parts_(PartsOf(digits)) {
+    : tree_(FindSupernodes(elimination)),
+      subtrees_(FindSubtrees(tree_, static_cast<Index>(elimination.order.size()))),
+      digits_(digits),
+      parts_(PartsOf(digits)) {
   const std::size_t n = elimination.order.size();
   sign_.reserve(n);
   for (const Index j : elimination.order) sign_.push_back(sign[j]);
   pivot_.resize(n * parts_);
   inverse_pivot_.resize(n * parts_);
-  size_.resize(n);
+  size_.resize(static_cast<std::size_t>(subtrees_.room));
   PlanStorage();
 }
 
-// The stack holds what the children left, and above it what their parent is about to leave.
 void MultifrontalLdl::PlanStorage() {
-  std::int64_t size = 0, top = 0, peak = 0;
-  Index most_rows = 0, most_pivots = 0;
-  std::vector<std::int64_t> stack;
-  for (std::size_t s = 0; s < tree_.nodes.size(); ++s) {
-    const Supernode& node = tree_.nodes[s];
+  std::int64_t size = 0;
+  for (const Supernode& node : tree_.nodes) {
     front_start_.push_back(size * parts_);
     size += FrontSize(node);
+  }
+  fronts_.resize(size * parts_);
+  rooms_.resize(subtrees_.parts.size() + 1);
+  for (std::size_t p = 0; p < subtrees_.parts.size(); ++p) {
+    std::vector<std::size_t> nodes(subtrees_.parts[p].end - subtrees_.parts[p].begin);
+    std::iota(nodes.begin(), nodes.end(), subtrees_.parts[p].begin);
+    PlanRoom(nodes, rooms_[p]);
+  }
+  PlanRoom(subtrees_.top, rooms_.back());
+}
+
+// The stack holds what the children left, and above it what their parent is about to leave.
+void MultifrontalLdl::PlanRoom(const std::vector<std::size_t>& nodes, Room& room) const {
+  std::int64_t top = 0, peak = 0;
+  Index most_rows = 0, most_pivots = 0;
+  std::vector<std::size_t> stack;
+  for (const std::size_t s : nodes) {
+    const Supernode& node = tree_.nodes[s];
     peak = std::max(peak, top + UpdateSize(node));
-    for (Index c = 0; c < tree_.num_children[s]; ++c) {
-      top -= stack.back();
+    while (!stack.empty() && tree_.nodes[stack.back()].parent == static_cast<Index>(s)) {
+      top -= UpdateSize(tree_.nodes[stack.back()]);
       stack.pop_back();
     }
-    stack.push_back(UpdateSize(node));
+    stack.push_back(s);
     top += UpdateSize(node);
     most_rows = std::max(most_rows, node.rows);
     most_pivots = std::max(most_pivots, node.pivots);
   }
-  fronts_.resize(size * parts_);
-  stack_.resize(peak * parts_);
-  work_.resize(kWorkPerPivot * most_pivots);
-  column_.resize(RoundUp(most_rows) * parts_);
-  own_.resize(RoundUp(most_pivots) * parts_);
+  room.stack.resize(peak * parts_);
+  room.work.resize(kWorkPerPivot * most_pivots);
+  room.column.resize(RoundUp(most_rows) * parts_);
+  room.own.resize(RoundUp(most_pivots) * parts_);
 }
 
 Front MultifrontalLdl::FrontOf(std::size_t s) const {
@@ -111,81 +128,135 @@ void MultifrontalLdl::AddChild(const Supernode& child, const double* left, const
   }
 }
 
-int MultifrontalLdl::Factor(const Numbers& values, const PivotRule& rule) {
-  int raised = 0;
+int MultifrontalLdl::Factor(const Numbers& values, const PivotRule& rule, Workers* workers) {
   std::fill(size_.begin(), size_.end(), 0.0);
-  std::int64_t top = 0;
-  left_.clear();
-  for (std::size_t s = 0; s < tree_.nodes.size(); ++s) {
-    const Supernode& node = tree_.nodes[s];
-    const std::int64_t update_size = UpdateSize(node) * parts_;
-    const Front front = FrontOf(s);
-    Gather(s, front, values);
-    double* update = stack_.data() + top;
-    std::fill_n(update, update_size, 0.0);
-    std::int64_t base = top;
-    for (Index c = 0; c < tree_.num_children[s]; ++c) {
-      base = left_.back().begin;
-      AddChild(tree_.nodes[left_.back().node], stack_.data() + base, front, update);
-      left_.pop_back();
+  std::vector<int> raised(subtrees_.parts.size(), 0);
+  EachPart(workers, subtrees_.parts.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p) {
+      Room& room = rooms_[p];
+      room.top = 0;
+      room.left.clear();
+      for (std::size_t s = subtrees_.parts[p].begin; s < subtrees_.parts[p].end; ++s) {
+        raised[p] += Eliminate(s, values, rule, room);
+      }
     }
-    double* pivot = pivot_.data() + node.first * parts_;
-    for (Index k = 0; k < node.pivots; ++k) {
-      const double* column = front.top + k * front.top_stride * parts_;
-      size_[node.first + k] += std::abs(column[k + (parts_ - 1) * (k / kLanes * kLanes)]);
+  });
+  AddPlaces({size_.data(), nullptr});
+  return std::accumulate(raised.begin(), raised.end(), EliminateTop(values, rule));
+}
+
+int MultifrontalLdl::EliminateTop(const Numbers& values, const PivotRule& rule) {
+  Room& room = rooms_.back();
+  room.top = 0;
+  room.left.clear();
+  int raised = 0;
+  std::size_t part = 0;
+  for (const std::size_t s : subtrees_.top) {
+    for (; part < subtrees_.parts.size() && subtrees_.parts[part].end <= s; ++part) {
+      for (const Left& left : rooms_[part].left) room.left.push_back({left.node, left.numbers, -1});
     }
-    raised += FactorFront(front,
-                          {sign_.data() + node.first, size_.data() + node.first, pivot,
-                           inverse_pivot_.data() + node.first * parts_},
-                          rule, work_.data());
-    if (node.rows > 0) {
-      SizesBelow(front, pivot, column_.data());
-      const Index* row = tree_.row.data() + node.row_start;
-      for (Index i = 0; i < node.rows; ++i) size_[row[i]] += column_[i];
-      SubtractSquare(front, pivot, update, work_.data());
-      if (base < top) std::copy_n(update, update_size, stack_.data() + base);
-    }
-    left_.push_back({s, base});
-    top = base + update_size;
+    raised += Eliminate(s, values, rule, room);
   }
   return raised;
 }
 
-/// A front's part of a right side, as its kernels want it, and back.
-double* MultifrontalLdl::Load(const Supernode& node, const NumbersOf<double>& b) const {
-  if (digits_ == Digits::kPlain) return b.high + node.first;
-  std::fill(own_.begin(), own_.end(), 0.0);
+int MultifrontalLdl::Eliminate(std::size_t s, const Numbers& values, const PivotRule& rule,
+                               Room& room) {
+  const Supernode& node = tree_.nodes[s];
+  const std::int64_t update_size = UpdateSize(node) * parts_;
+  const Front front = FrontOf(s);
+  Gather(s, front, values);
+  double* update = room.stack.data() + room.top;
+  std::fill_n(update, update_size, 0.0);
+  std::int64_t base = room.top;
+  for (Index c = 0; c < tree_.num_children[s]; ++c) {
+    const Left& left = room.left.back();
+    if (left.begin >= 0) base = left.begin;
+    AddChild(tree_.nodes[left.node], left.numbers, front, update);
+    room.left.pop_back();
+  }
+  double* pivot = pivot_.data() + node.first * parts_;
   for (Index k = 0; k < node.pivots; ++k) {
-    double* at = own_.data() + k / kLanes * 2 * kLanes + k % kLanes;
+    const double* column = front.top + k * front.top_stride * parts_;
+    size_[node.first + k] += std::abs(column[k + (parts_ - 1) * (k / kLanes * kLanes)]);
+  }
+  const int raised = FactorFront(front,
+                                 {sign_.data() + node.first, size_.data() + node.first, pivot,
+                                  inverse_pivot_.data() + node.first * parts_},
+                                 rule, room.work.data());
+  if (node.rows > 0) {
+    SizesBelow(front, pivot, room.column.data());
+    const Index* row = subtrees_.row.data() + node.row_start;
+    for (Index i = 0; i < node.rows; ++i) size_[row[i]] += room.column[i];
+    SubtractSquare(front, pivot, update, room.work.data());
+    if (base < room.top) std::copy_n(update, update_size, room.stack.data() + base);
+  }
+  room.left.push_back({s, room.stack.data() + base, base});
+  room.top = base + update_size;
+  return raised;
+}
+
+void MultifrontalLdl::AddPlaces(const NumbersOf<double>& v) const {
+  for (const Subtrees::Part& part : subtrees_.parts) {
+    AddToRows(v, part.first_place, part.above);
+  }
+}
+
+/// A front's part of a right side, as its kernels want it, and back.
+double* MultifrontalLdl::Load(const Supernode& node, const NumbersOf<double>& b, Room& room) const {
+  if (digits_ == Digits::kPlain) return b.high + node.first;
+  std::fill(room.own.begin(), room.own.end(), 0.0);
+  for (Index k = 0; k < node.pivots; ++k) {
+    double* at = room.own.data() + k / kLanes * 2 * kLanes + k % kLanes;
     at[0] = b.high[node.first + k];
     at[kLanes] = b.low[node.first + k];
   }
-  return own_.data();
+  return room.own.data();
 }
-void MultifrontalLdl::Store(const Supernode& node, const NumbersOf<double>& b) const {
+void MultifrontalLdl::Store(const Supernode& node, const NumbersOf<double>& b,
+                            const Room& room) const {
   if (digits_ == Digits::kPlain) return;
   for (Index k = 0; k < node.pivots; ++k) {
-    const double* at = own_.data() + k / kLanes * 2 * kLanes + k % kLanes;
+    const double* at = room.own.data() + k / kLanes * 2 * kLanes + k % kLanes;
     b.high[node.first + k] = at[0];
     b.low[node.first + k] = at[kLanes];
   }
 }
 
-void MultifrontalLdl::Solve(const NumbersOf<double>& b) const {
-  double* y = column_.data();
-  for (std::size_t s = 0; s < tree_.nodes.size(); ++s) {
-    const Supernode& node = tree_.nodes[s];
-    ForwardFront(FrontOf(s), Load(node, b), y);
-    Store(node, b);
-    SubtractRows(y, node.rows, tree_.row.data() + node.row_start, b);
-  }
-  for (std::size_t s = tree_.nodes.size(); s-- > 0;) {
-    const Supernode& node = tree_.nodes[s];
-    TakeRows(b, node.rows, tree_.row.data() + node.row_start, y);
-    const double* inverse = inverse_pivot_.data() + node.first * parts_;
-    BackwardFront(FrontOf(s), inverse, Load(node, b), y);
-    Store(node, b);
-  }
+void MultifrontalLdl::Forward(std::size_t s, const NumbersOf<double>& b, Room& room) const {
+  const Supernode& node = tree_.nodes[s];
+  ForwardFront(FrontOf(s), Load(node, b, room), room.column.data());
+  Store(node, b, room);
+  SubtractRows(room.column.data(), node.rows, subtrees_.row.data() + node.row_start, b);
+}
+
+void MultifrontalLdl::Backward(std::size_t s, const NumbersOf<double>& b, Room& room) const {
+  const Supernode& node = tree_.nodes[s];
+  TakeRows(b, node.rows, tree_.row.data() + node.row_start, room.column.data());
+  const double* inverse = inverse_pivot_.data() + node.first * parts_;
+  BackwardFront(FrontOf(s), inverse, Load(node, b, room), room.column.data());
+  Store(node, b, room);
+}
+
+void MultifrontalLdl::Solve(const NumbersOf<double>& b, Workers* workers) const {
+  const auto n = static_cast<Index>(sign_.size());
+  std::fill(b.high + n, b.high + subtrees_.room, 0.0);
+  if (digits_ == Digits::kTwofold) std::fill(b.low + n, b.low + subtrees_.room, 0.0);
+  const auto each_part = [&](auto&& body) {
+    EachPart(workers, subtrees_.parts.size(), 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t p = begin; p < end; ++p) body(subtrees_.parts[p], rooms_[p]);
+    });
+  };
+  each_part([&](const Subtrees::Part& part, Room& room) {
+    for (std::size_t s = part.begin; s < part.end; ++s) Forward(s, b, room);
+  });
+  AddPlaces(digits_ == Digits::kPlain ? NumbersOf<double>{b.high, nullptr} : b);
+  const std::vector<std::size_t>& top = subtrees_.top;
+  for (const std::size_t s : top) Forward(s, b, rooms_.back());
+  for (std::size_t k = top.size(); k-- > 0;) Backward(top[k], b, rooms_.back());
+  each_part([&](const Subtrees::Part& part, Room& room) {
+    for (std::size_t s = part.end; s-- > part.begin;) Backward(s, b, room);
+  });
 }
 
 }  // namespace switchyard::linalg

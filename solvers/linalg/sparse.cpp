@@ -42,23 +42,41 @@ SWITCHYARD_INLINE double Gathered(const double* value, const Index* index, Index
   return (sum0 + sum1) + (sum2 + sum3);
 }
 
-}  // namespace
-
-SWITCHYARD_EACH_ISA void Multiply(const SparseMatrix& a, const double* x, double* y) {
+SWITCHYARD_EACH_ISA void MultiplyRows(const SparseMatrix& a, Index begin, Index end,
+                                      const double* x, double* y) {
   const Index* start = a.row_start.data();
-  for (Index i = 0; i < a.rows; ++i) {
+  for (Index i = begin; i < end; ++i) {
     y[i] = Gathered(a.by_row.data() + start[i], a.column.data() + start[i], start[i + 1] - start[i],
                     x);
   }
 }
 
-SWITCHYARD_EACH_ISA void AddTransposed(const SparseMatrix& a, double alpha, const double* x,
-                                       double* y) {
+SWITCHYARD_EACH_ISA void AddColumns(const SparseMatrix& a, Index begin, Index end, double alpha,
+                                    const double* x, double* y) {
   const Index* start = a.column_start.data();
-  for (Index j = 0; j < a.cols; ++j) {
+  for (Index j = begin; j < end; ++j) {
     y[j] += alpha * Gathered(a.by_column.data() + start[j], a.row.data() + start[j],
                              start[j + 1] - start[j], x);
   }
+}
+
+constexpr std::size_t kGrain = 2048;  // rows, or columns
+
+}  // namespace
+
+void Multiply(const SparseMatrix& a, const double* x, double* y, Workers* workers) {
+  EachPart(workers, static_cast<std::size_t>(a.rows), kGrain,
+           [&](std::size_t begin, std::size_t end) {
+             MultiplyRows(a, static_cast<Index>(begin), static_cast<Index>(end), x, y);
+           });
+}
+
+void AddTransposed(const SparseMatrix& a, double alpha, const double* x, double* y,
+                   Workers* workers) {
+  EachPart(workers, static_cast<std::size_t>(a.cols), kGrain,
+           [&](std::size_t begin, std::size_t end) {
+             AddColumns(a, static_cast<Index>(begin), static_cast<Index>(end), alpha, x, y);
+           });
 }
 
 void AddProduct(const SymmetricMatrix& p, double alpha, const double* x, double* y) {

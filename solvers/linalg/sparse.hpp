@@ -5,6 +5,7 @@
 
 #include "solvers/linalg/simd.hpp"
 #include "solvers/linalg/symmetric_pattern.hpp"
+#include "solvers/linalg/workers.hpp"
 
 namespace switchyard::linalg {
 
@@ -24,10 +25,11 @@ struct SparseMatrix {
   void CopyToColumns();
 };
 
-/// y = A x.
-void Multiply(const SparseMatrix& a, const double* x, double* y);
-/// y += alpha A'x.
-void AddTransposed(const SparseMatrix& a, double alpha, const double* x, double* y);
+/// y = A x; `workers`, if any, share the rows.
+void Multiply(const SparseMatrix& a, const double* x, double* y, Workers* workers = nullptr);
+/// y += alpha A'x; likewise the columns.
+void AddTransposed(const SparseMatrix& a, double alpha, const double* x, double* y,
+                   Workers* workers = nullptr);
 
 /// Symmetric, the upper triangle by columns.
 struct SymmetricMatrix {

@@ -201,6 +201,15 @@ void SubtractTwofoldRows(const double* y, Index rows, const Index* row,
   }
 }
 
+void AddToTwofoldRows(const NumbersOf<double>& v, Index first, const std::vector<Index>& row) {
+  for (const Index r : row) {
+    const One sum = One{v.high[r], v.low[r]} + One{v.high[first], v.low[first]};
+    v.high[r] = sum.high;
+    v.low[r] = sum.low;
+    ++first;
+  }
+}
+
 void TakeTwofoldRows(const NumbersOf<double>& b, Index rows, const Index* row, double* y) {
   std::fill_n(y, 2 * RoundUp(rows), 0.0);
   for (Index i = 0; i < rows; ++i) Set(y, i, {b.high[row[i]], b.low[row[i]]});

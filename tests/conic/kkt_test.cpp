@@ -52,7 +52,7 @@ double LeftBy(const Form& form, const ProductCone& cones, const Triple& right,
   Vector columns(step.x.size(), 0.0), rows(a_x.size()), h_z(step.z.size());
   AddProduct(form.P, 1, step.x.data(), p_x.data());
   Multiply(form.A, step.x.data(), a_x.data());
-  AddSlackColumns(form, step.y, step.z, rows, columns);
+  AddSlackColumns(form, step.y, step.z, nullptr, rows, columns);
   cones.Multiply(step.z, h_z);
   double left = 0;
   for (std::size_t j = 0; j < p_x.size(); ++j) {
@@ -79,9 +79,8 @@ double SizeOfStep(const KktStep& step) {
 /// The step for a right side, that of `kkt`, and that its equations hold.
 KktStep StepOf(const Form& form, Kkt& kkt, ProductCone& cones, const Triple& right) {
   KktStep step(form.shape);
-  linalg::Workers workers(1);
   kkt.Restart();
-  kkt.Factor(cones, workers);
+  kkt.Factor(cones);
   kkt.Solve(cones, right, {1e-11, 1e-11}, step);
   EXPECT_LE(LeftBy(form, cones, right, step), 1e-9 * SizeOfStep(step));
   return step;
@@ -156,8 +155,7 @@ TEST_P(KktOf, FactorsOfTwiceTheDigitsGiveTheSameStep) {
     const Triple right = SomeSide(form.shape, random);
     const KktStep a = StepOf(form, plain, cones, right);
     KktStep b(form.shape);
-    linalg::Workers workers(1);
-    twofold.Factor(cones, workers);
+    twofold.Factor(cones);
     twofold.Solve(cones, right, {1e-11, 1e-11}, b);
     EXPECT_LE(LeftBy(form, cones, right, b), 1e-9 * SizeOfStep(b));
     ExpectSameStep(a, b, 1e-6);
@@ -177,8 +175,7 @@ TEST(Kkt, SaysHowMuchIsLeft) {
     ProductCone cones = ScaledCones(form, random, 0.5);
     const Triple right = SomeSide(form.shape, random);
     KktStep step(form.shape);
-    linalg::Workers workers(1);
-    kkt.Factor(cones, workers);
+    kkt.Factor(cones);
     const Kkt::Outcome outcome = kkt.Solve(cones, right, {kGoal, kGoal}, step);
     const double rounding = 1e-14 * SizeOfStep(step) * form.shape.rows();
     EXPECT_LE(LeftBy(form, cones, right, step), kGoal * outcome.left + rounding);

@@ -39,12 +39,15 @@ class InOrder : public Factors {
       high.push_back(b.high[j]);
       if (b.low != nullptr) low.push_back(b.low[j]);
     }
+    const std::size_t n = high.size();
     if constexpr (std::is_same_v<F, SimplicialLdl>) {
       factors_.Solve(high.data());
     } else {
+      high.resize(static_cast<std::size_t>(factors_.room()));
+      low.resize(high.size());
       factors_.Solve({high.data(), b.low != nullptr ? low.data() : nullptr});
     }
-    for (std::size_t k = 0; k < high.size(); ++k) {
+    for (std::size_t k = 0; k < n; ++k) {
       b.high[elimination_.order[k]] = high[k];
       if (b.low != nullptr) b.low[elimination_.order[k]] = low[k];
     }
