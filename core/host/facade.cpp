@@ -399,6 +399,35 @@ void Facade::CheckAnswer(sy_result& result) const {
   }
 }
 
+const sy_pool* Facade::BackendsPool() const {
+  if (facts().extension == nullptr) return nullptr;
+  return static_cast<const sy_pool*>(facts().extension(context_->backend->table, "sy.pool/1"));
+}
+
+std::int32_t Facade::PoolSize() const {
+  const sy_pool* pool = BackendsPool();
+  return pool != nullptr ? std::max(0, pool->count(instance_->get())) : 0;
+}
+
+void Facade::PoolSolution(std::int32_t i, sy_result& result) const {
+  Forwarding([&] {
+    const sy_pool* pool = BackendsPool();
+    if (pool == nullptr) throw Failure(SY_E_UNSUPPORTED, "it keeps no pool");
+    ForgetAnswer(result);
+    sy_result found = result;
+    Vectors v;
+    const sy_problem& image = chain_->empty() ? view() : chain_->image().view();
+    v.x.assign(At(image.num_vars), std::nan(""));
+    found.x = v.x.data();
+    Call(instance_->solver(), "sy.pool/1", pool->get, instance_->get(), i, &found);
+    if (!chain_->empty()) chain_->Back(v);
+    result.primal = found.primal;
+    result.objective = view().nlp == nullptr ? Objective(view(), v.x.data()) : found.objective;
+    CopyOut(v.x, result.x, view().num_vars);
+    CheckAnswer(result);
+  });
+}
+
 const void* Facade::Extension(const char* id) {
   static constexpr sy_facade kFacade = {
       sizeof(sy_facade), 0,
@@ -409,6 +438,14 @@ const void* Facade::Extension(const char* id) {
         return static_cast<std::int32_t>(plugin::As<Facade>(p).solver->updates());
       },
       [](sy_instance* p) noexcept { return plugin::As<Facade>(p).solver->backend_seconds(); }};
+  static constexpr sy_pool kPool = {
+      sizeof(sy_pool), 0,
+      [](sy_instance* p) noexcept { return plugin::As<Facade>(p).solver->PoolSize(); },
+      [](sy_instance* p, std::int32_t i, sy_result* result, sy_error* error) noexcept {
+        return plugin::Guarded(error,
+                               [&] { plugin::As<Facade>(p).solver->PoolSolution(i, *result); });
+      }};
+  if (std::strcmp(id, "sy.pool/1") == 0) return &kPool;
   return std::strcmp(id, "sy.facade/1") == 0 ? &kFacade : nullptr;
 }
 

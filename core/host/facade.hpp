@@ -41,6 +41,10 @@ class Facade {
   void Update(const sy_update& update);
   void WarmStart(const sy_start& start);
   void Solve(const sy_control& control, sy_result& result);
+  /// What else the backend found at the last solve, by its "sy.pool/1"; none where it has no such.
+  [[nodiscard]] std::int32_t PoolSize() const;
+  /// x and its objective.
+  void PoolSolution(std::int32_t i, sy_result& result) const;
   static const void* Extension(const char* id);
 
   [[nodiscard]] int loads() const { return loads_; }
@@ -62,6 +66,7 @@ class Facade {
   void Send(const sy_update& update);
   void Recover(sy_result& found, const Vectors& mapped, sy_result& result) const;
   void CheckAnswer(sy_result& result) const;
+  [[nodiscard]] const sy_pool* BackendsPool() const;
 
   const FacadeContext* context_;
   std::unique_ptr<Instance> instance_;

@@ -116,6 +116,16 @@ void Recovery::WritePoint(const AnswerBuffers& answer) {
   result_.primal = KindOf(RelativeViolation(lowering_.problem().view(), x));
 }
 
+void Recovery::AddSuboptimal(const std::vector<double>& x) {
+  if (KindOf(RelativeViolation(lowering_.problem().view(), x)) != PointKind::kFeasible) {
+    result_.notes.push_back(
+        Text(backend_.id, " has a point in its pool that is not feasible: it is left out"));
+    return;
+  }
+  const Eigen::VectorXd point = Eigen::Map<const Eigen::VectorXd>(x.data(), program_.num_vars());
+  result_.suboptimal_.push_back({program_.EvalCosts(point), point});
+}
+
 void Recovery::WriteBound(const AnswerBuffers& answer) {
   const sy_problem& problem = lowering_.problem().view();
   const bool convex = IsContinuousConvex(problem);

@@ -34,6 +34,8 @@ class Recovery {
       : program_(program), lowering_(lowering), backend_(backend), result_(result) {}
 
   void Write(const AnswerBuffers& answer);
+  /// A point of the backend's pool; one that is not feasible is left out, with a note.
+  void AddSuboptimal(const std::vector<double>& x);
   /// Did the backend claim what the check does not support?
   [[nodiscard]] bool doubted() const { return doubted_; }
 

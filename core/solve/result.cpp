@@ -70,6 +70,25 @@ double MathematicalProgramResult::GetSolution(Variable variable) const {
   return x_[j];
 }
 
+const MathematicalProgramResult::Suboptimal& MathematicalProgramResult::SuboptimalOf(
+    int number) const {
+  Require(number >= 0 && number < num_suboptimal_solution(), "there are ",
+          num_suboptimal_solution(), " suboptimal solutions, and number ", number, " is asked for");
+  return suboptimal_[static_cast<std::size_t>(number)];
+}
+
+double MathematicalProgramResult::get_suboptimal_objective(int number) const {
+  return SuboptimalOf(number).objective;
+}
+
+double MathematicalProgramResult::GetSuboptimalSolution(Variable variable, int number) const {
+  const Suboptimal& solution = SuboptimalOf(number);
+  const int j = IndexOf(variable);
+  Require(j >= 0, "GetSuboptimalSolution: the variable with id ", variable.get_id(),
+          " is not of the program that was solved");
+  return solution.x[j];
+}
+
 Expression MathematicalProgramResult::GetSolution(const Expression& e) const {
   Expression::Substitution values;
   for (const Variable v : e.GetVariables()) {

@@ -238,11 +238,23 @@ bool SolverSession::State::RunOnce(const sy_control& control, MathematicalProgra
       result.evaluations = functions->counts();
     }
     recovery.Write(answer);
+    ReadPool(recovery);
   }
   const double inside = BackendSeconds(instance.get()) - before;
   result.seconds.solve += inside;
   result.seconds.recover += spent - inside;
   return !recovery.doubted();
+}
+
+void SolverSession::State::ReadPool(Recovery& recovery) {
+  const sy_solver& facade = instance->solver();
+  const auto& pool = *static_cast<const sy_pool*>(facade.extension(&facade, "sy.pool/1"));
+  const std::int32_t size = pool.count(instance->get());
+  for (std::int32_t i = 0; i < size; ++i) {
+    AnswerBuffers answer(lowering->problem().data());
+    Call(facade, "sy.pool/1", pool.get, instance->get(), i, &answer.raw);
+    recovery.AddSuboptimal(answer.vectors.x);
+  }
 }
 
 void SolverSession::State::Describe(MathematicalProgramResult& result) const {

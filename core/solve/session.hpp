@@ -45,6 +45,7 @@ struct SolverSession::State {
   void Start(const std::optional<Eigen::VectorXd>& guess);
   void Run(MathematicalProgramResult& result);
   bool RunOnce(const sy_control& control, MathematicalProgramResult& result);
+  void ReadPool(Recovery& recovery);
   void Describe(MathematicalProgramResult& result) const;
   [[nodiscard]] sy_control Control();
   [[nodiscard]] double Spent() const;

@@ -66,6 +66,7 @@ void BranchAndBound::Solve(const sy_control& control, sy_result& result) {
   run.Solve();
   run.Write(result);
   pool_ = run.Pool();
+  if (!pool_.empty()) pool_.erase(pool_.begin());  // the answer
 }
 
 const void* BranchAndBound::Extension(const char* id) {

@@ -48,7 +48,7 @@ class BranchAndBound {
   void Solve(const sy_control& control, sy_result& result);
   /// "sy.pool/1".
   static const void* Extension(const char* id);
-  /// The best points of the last solve, the best first.
+  /// The best points of the last solve after its answer, the best first.
   [[nodiscard]] const std::vector<Solution>& pool() const { return pool_; }
 
  private:

@@ -8,6 +8,7 @@
 #include <random>
 #include <vector>
 
+#include "switchyard/error.hpp"
 #include "switchyard/model/program.hpp"
 #include "switchyard/solve/solve.hpp"
 #include "tests/mip/enumerate.hpp"
@@ -204,6 +205,39 @@ TEST(BranchAndBound, ServesProgramsWithIntegersAndConesUnnamed) {
   const auto linear = Built().Rank(Problem(RandomProgram(ProgramClass::kLinear, 1)).view());
   if (IsThere("highs")) {
     EXPECT_NE(linear[0].backend->short_name, kBackend);
+  }
+}
+
+// A quadratic objective comes over a bridge, and so do the points of the pool, on their way back.
+TEST(BranchAndBound, GivesWhatElseItFound) {
+  SKIP_WITHOUT(kBackend);
+  MathematicalProgram prog;
+  const auto x = prog.NewBinaryVariables(8, "x");
+  const Eigen::VectorXd wish = Eigen::VectorXd::LinSpaced(8, -0.2, 1.3);
+  prog.AddQuadraticErrorCost(Eigen::MatrixXd::Identity(8, 8), wish, x);
+  prog.AddLinearConstraint(Eigen::RowVectorXd::LinSpaced(8, 3, 10), 12, 14, x);
+  const MathematicalProgramResult result = SolverInterface(kBackend, Built()).Solve(prog);
+  ASSERT_TRUE(result.is_success()) << result.message;
+  ASSERT_GT(result.num_suboptimal_solution(), 0);
+  double before = result.objective;
+  Eigen::VectorXd last = result.GetSolution(x);
+  for (int k = 0; k < result.num_suboptimal_solution(); ++k) {
+    const Eigen::VectorXd other = result.GetSuboptimalSolution(x, k);
+    EXPECT_NE(other, last);
+    EXPECT_EQ(other[3], result.GetSuboptimalSolution(x[3], k));
+    EXPECT_NEAR(result.get_suboptimal_objective(k), (other - wish).squaredNorm(), 1e-9);
+    EXPECT_GE(result.get_suboptimal_objective(k), before - 1e-9);
+    for (const double v : other) EXPECT_EQ(v, std::round(v));
+    const double sum = Eigen::RowVectorXd::LinSpaced(8, 3, 10) * other;
+    EXPECT_TRUE(sum >= 12 && sum <= 14) << sum;
+    before = result.get_suboptimal_objective(k);
+    last = other;
+  }
+  try {
+    static_cast<void>(result.get_suboptimal_objective(result.num_suboptimal_solution()));
+    ADD_FAILURE() << "a solution behind the last";
+  } catch (const InvalidArgument& e) {
+    EXPECT_THAT(e.what(), HasSubstr("suboptimal solutions, and number"));
   }
 }
 

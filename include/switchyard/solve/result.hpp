@@ -138,6 +138,21 @@ class SWITCHYARD_EXPORT MathematicalProgramResult {
     return values;
   }
   [[nodiscard]] const Eigen::VectorXd& GetSolution() const { return x_; }
+  /// What else the backend found where it keeps a pool, the best first, without the solution
+  /// itself: each is feasible and its objective recomputed.
+  [[nodiscard]] int num_suboptimal_solution() const { return static_cast<int>(suboptimal_.size()); }
+  /// Throws InvalidArgument where `number` is not in [0, num_suboptimal_solution()).
+  [[nodiscard]] double get_suboptimal_objective(int number) const;
+  /// Likewise, and where the variable is not the program's.
+  [[nodiscard]] double GetSuboptimalSolution(Variable variable, int number) const;
+  template <class Derived>
+  requires std::is_same_v<typename Derived::Scalar, Variable>
+  [[nodiscard]] auto GetSuboptimalSolution(const Eigen::MatrixBase<Derived>& variables,
+                                           int number) const {
+    return variables.derived()
+        .unaryExpr([this, number](const Variable& v) { return GetSuboptimalSolution(v, number); })
+        .eval();
+  }
   /// With the solution's values put for the program's variables; others stay.
   [[nodiscard]] Expression GetSolution(const Expression& e) const;
   template <class Derived>
@@ -184,7 +199,14 @@ class SWITCHYARD_EXPORT MathematicalProgramResult {
   friend class Recovery;
   [[nodiscard]] int IndexOf(Variable variable) const;
 
+  struct Suboptimal {
+    double objective;
+    Eigen::VectorXd x;
+  };
+  [[nodiscard]] const Suboptimal& SuboptimalOf(int number) const;
+
   Eigen::VectorXd x_;
+  std::vector<Suboptimal> suboptimal_;
   std::vector<Variable> variables_;  // ascending
   std::vector<int> index_;           // of each, in the program
   std::vector<std::pair<Binding<Constraint>, Eigen::VectorXd>> duals_;
