@@ -152,27 +152,51 @@ SWITCHYARD_EACH_ISA void SubtractPlainSquare(const Front& f, const double* pivot
   }
 }
 
+// Four columns at a time: y is read and written once for them.
 SWITCHYARD_EACH_ISA void ForwardPlain(const Front& f, double* x, double* y) {
   for (Index i = 0; i < f.below_stride; i += kLanes) LanesAt(y + i) = Lanes{};
   for (Index j = 0; j < f.pivots; ++j) {
     const double* top = f.top + j * f.top_stride;
     const double xj = x[j];
     for (Index i = j + 1; i < f.pivots; ++i) x[i] -= top[i] * xj;
-    SubtractMultiple(f.below + j * f.below_stride, -xj, f.below_stride, y);
   }
+  Index j = 0;
+  for (; j + 4 <= f.pivots; j += 4) {
+    const double* below = f.below + j * f.below_stride;
+    for (Index i = 0; i < f.below_stride; i += kLanes) {
+      LanesAt(y + i) +=
+          (LanesAt(below + i) * x[j] + LanesAt(below + f.below_stride + i) * x[j + 1]) +
+          (LanesAt(below + 2 * f.below_stride + i) * x[j + 2] +
+           LanesAt(below + 3 * f.below_stride + i) * x[j + 3]);
+    }
+  }
+  for (; j < f.pivots; ++j)
+    SubtractMultiple(f.below + j * f.below_stride, -x[j], f.below_stride, y);
+}
+
+/// sum of a[i] b[i]: two sums of eight, as one would wait for itself. b may stand anywhere.
+SWITCHYARD_INLINE double Product(const double* a, const double* b, Index count) {
+  const auto at = [](const double* p) { return *reinterpret_cast<const LooseLanes*>(p); };
+  Lanes even = Lanes{}, odd = Lanes{};
+  Index i = 0;
+  for (; i + 2 * kLanes <= count; i += 2 * kLanes) {
+    even += at(a + i) * at(b + i);
+    odd += at(a + i + kLanes) * at(b + i + kLanes);
+  }
+  for (; i + kLanes <= count; i += kLanes) even += at(a + i) * at(b + i);
+  even += odd;
+  double sum = 0, rest = 0;
+  for (; i < count; ++i) rest += a[i] * b[i];
+  for (int l = 0; l < kLanes; ++l) sum += even[l];
+  return sum + rest;
 }
 
 SWITCHYARD_EACH_ISA void BackwardPlain(const Front& f, const double* inverse_pivot, double* x,
                                        const double* y) {
   for (Index j = f.pivots - 1; j >= 0; --j) {
-    const double* below = f.below + j * f.below_stride;
-    Lanes sums = Lanes{};
-    for (Index i = 0; i < f.below_stride; i += kLanes) sums += LanesAt(below + i) * LanesAt(y + i);
-    double sum = x[j] * inverse_pivot[j];
-    for (int i = 0; i < kLanes; ++i) sum -= sums[i];
-    const double* top = f.top + j * f.top_stride;
-    for (Index i = j + 1; i < f.pivots; ++i) sum -= top[i] * x[i];
-    x[j] = sum;
+    const double below = Product(f.below + j * f.below_stride, y, f.below_stride);
+    const double top = Product(f.top + j * f.top_stride + j + 1, x + j + 1, f.pivots - j - 1);
+    x[j] = x[j] * inverse_pivot[j] - below - top;
   }
 }
 

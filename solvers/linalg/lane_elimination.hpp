@@ -123,12 +123,22 @@ SWITCHYARD_INLINE void Forward(const BlockShape& s, const V* l, V* x) {
   }
 }
 
+// Four sums, as one would wait for itself.
 template <class V>
 SWITCHYARD_INLINE void Backward(const BlockShape& s, const V* l, const V* inverse_pivot, V* x) {
+  const Index* row = s.row.data();
   for (Index k = s.columns - 1; k >= 0; --k) {
-    V sum = x[k] * inverse_pivot[k];
-    for (Index p = s.column_start[k] + 1; p < s.column_start[k + 1]; ++p) sum -= l[p] * x[s.row[p]];
-    x[k] = sum;
+    const Index end = s.column_start[k + 1];
+    V sum0 = x[k] * inverse_pivot[k], sum1 = V{}, sum2 = V{}, sum3 = V{};
+    Index p = s.column_start[k] + 1;
+    for (; p + 4 <= end; p += 4) {
+      sum0 -= l[p] * x[row[p]];
+      sum1 -= l[p + 1] * x[row[p + 1]];
+      sum2 -= l[p + 2] * x[row[p + 2]];
+      sum3 -= l[p + 3] * x[row[p + 3]];
+    }
+    for (; p < end; ++p) sum1 -= l[p] * x[row[p]];
+    x[k] = (sum0 + sum1) + (sum2 + sum3);
   }
 }
 

@@ -66,9 +66,15 @@ void SimplicialLdl::Solve(double* b) const {
     for (std::int64_t p = start_[j]; p < start_[j + 1]; ++p) b[row_[p]] -= value_[p] * x;
   }
   for (Index j = n - 1; j >= 0; --j) {
-    double x = b[j] * inverse_d_[j];
-    for (std::int64_t p = start_[j]; p < start_[j + 1]; ++p) x -= value_[p] * b[row_[p]];
-    b[j] = x;
+    double sum0 = b[j] * inverse_d_[j], sum1 = 0, sum2 = 0;  // as one would wait for itself
+    std::int64_t p = start_[j];
+    for (; p + 3 <= start_[j + 1]; p += 3) {
+      sum0 -= value_[p] * b[row_[p]];
+      sum1 -= value_[p + 1] * b[row_[p + 1]];
+      sum2 -= value_[p + 2] * b[row_[p + 2]];
+    }
+    for (; p < start_[j + 1]; ++p) sum1 -= value_[p] * b[row_[p]];
+    b[j] = sum0 + (sum1 + sum2);
   }
 }
 

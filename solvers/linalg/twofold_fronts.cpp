@@ -234,9 +234,15 @@ SWITCHYARD_EACH_ISA void BackwardTwofoldFront(const Front& f, const double* inve
   for (Index j = f.pivots - 1; j >= 0; --j) {
     const Eight* below = Rows(f.below) + std::ptrdiff_t{j} * below_groups;
     const Eight* top = Rows(f.top) + std::ptrdiff_t{j} * top_groups;
-    Eight sums = {Lanes{}, Lanes{}};
-    for (Index g = 0; g < below_groups; ++g) sums += below[g] * Rows(y)[g];
-    for (Index g = j / kLanes; g < top_groups; ++g) sums += top[g] * Rows(x)[g];
+    Eight sums = {Lanes{}, Lanes{}}, others = sums;  // two, as one would wait for itself
+    Index g = 0;
+    for (; g + 2 <= below_groups; g += 2) {
+      sums += below[g] * Rows(y)[g];
+      others += below[g + 1] * Rows(y)[g + 1];
+    }
+    for (; g < below_groups; ++g) sums += below[g] * Rows(y)[g];
+    for (g = j / kLanes; g < top_groups; ++g) others += top[g] * Rows(x)[g];
+    sums += others;
     One sum = Get(x, j) * inverse[j];
     for (int i = 0; i < kLanes; ++i) sum -= One{sums.high[i], sums.low[i]};
     Set(x, j, sum);
