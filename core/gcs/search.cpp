@@ -71,7 +71,7 @@ void Search::OneVertex() {
     return;
   }
   SolverOptions options = options_.restriction_solver_options.value_or(options_.solver_options);
-  answer_.result = SolveRestriction({}, options).result;
+  answer_.result = SolveRestriction({}, options, nullptr).result;
   if (result().primal != PointKind::kFeasible) return;
   answer_.points = {result().GetSolution(source_.x())};
 }
@@ -103,6 +103,7 @@ void Search::Transcribe() {
   const bool by_another =
       options_.restriction_solver != nullptr || options_.restriction_solver_options.has_value();
   if (!tags_.same || by_another) {
+    paths.flags = tags_.bounds ? SY_PATHS_BOUND : 0;
     paths.solve_path = [](void* context, const std::int32_t* arcs, std::int32_t count,
                           const sy_control* control, sy_result* result, sy_error* error) noexcept {
       return plugin::Guarded(error, [&] {
@@ -223,13 +224,13 @@ std::vector<const Search::Edge*> Search::EdgesOf(const std::int32_t* arcs,
   return edges;
 }
 
-Search::Tried Search::SolveRestriction(const std::vector<const Edge*>& edges,
-                                       SolverOptions options) const {
+Search::Tried Search::SolveRestriction(const std::vector<const Edge*>& edges, SolverOptions options,
+                                       const MathematicalProgramResult* guide) const {
   Tried tried;
   tried.program =
       edges.empty() ? RestrictionOf({&source_}, {}) : RestrictionOf(VerticesOf(edges), edges);
   std::optional<Eigen::VectorXd> start;
-  if (guide_ != nullptr) start = StartFrom(*guide_, *tried.program, edges);
+  if (guide != nullptr) start = StartFrom(*guide, *tried.program, edges);
   const bool own = options_.restriction_solver != nullptr;
   const SolverInterface named(NamesOf(own ? options_.restriction_solver : options_.solver), host_);
   tried.result = named.Solve(*tried.program, start, options);
@@ -259,7 +260,9 @@ void Search::SolvePath(const std::int32_t* arcs, std::int32_t count, const sy_co
   SolverOptions options = options_.restriction_solver_options.value_or(options_.solver_options);
   options.time_limit = std::min(options.time_limit, control.seconds);
   options.threads = control.threads;
-  Tried tried = SolveRestriction(edges, std::move(options));
+  MathematicalProgramResult along;
+  const bool guided = result.relaxed_x != nullptr && GuideAlong(edges, result.relaxed_x, along);
+  Tried tried = SolveRestriction(edges, std::move(options), guided ? &along : guide_.get());
   constexpr auto kOurs = static_cast<int>(Termination::kNoBackend);
   const auto termination = static_cast<int>(tried.result.termination);
   result.termination = termination < kOurs ? static_cast<sy_termination>(termination)
@@ -278,6 +281,16 @@ void Search::Guide(const double* x) {
   auto guide = std::make_unique<MathematicalProgramResult>();
   SetFlowPoint(graph_, pruned_, *transcription_, point, *guide);
   guide_ = std::move(guide);
+}
+
+// Where one path's restriction starts: at the best point by the relaxation's terms, if it is one.
+bool Search::GuideAlong(const std::vector<const Edge*>& edges, const double* x,
+                        MathematicalProgramResult& guide) const {
+  const std::vector<double> point(x, x + transcription_->problem().data().num_vars);
+  const PathPoints path = PathIn(pruned_, *transcription_, point);
+  if (path.edges != edges) return false;
+  SetPathPoint(graph_, path, guide);
+  return true;
 }
 
 void Search::Hear(const std::int32_t* arcs, std::int32_t count, const sy_result& result) {

@@ -65,9 +65,11 @@ class Search {
                                                  std::int32_t count) const;
   void SolvePath(const std::int32_t* arcs, std::int32_t count, const sy_control& control,
                  sy_result& result);
-  [[nodiscard]] Tried SolveRestriction(const std::vector<const Edge*>& edges,
-                                       SolverOptions options) const;
+  [[nodiscard]] Tried SolveRestriction(const std::vector<const Edge*>& edges, SolverOptions options,
+                                       const MathematicalProgramResult* guide) const;
   void Guide(const double* x);
+  [[nodiscard]] bool GuideAlong(const std::vector<const Edge*>& edges, const double* x,
+                                MathematicalProgramResult& guide) const;
   void Hear(const std::int32_t* arcs, std::int32_t count, const sy_result& result);
   MathematicalProgramResult& result() { return answer_.result; }
   [[nodiscard]] double Since(std::chrono::steady_clock::time_point start) const {

@@ -77,7 +77,8 @@ void Search::RecoverWhole() {
   if (path.edges.empty()) return RecoverPath(path);
   const double cost = raw_->raw.objective;
   Tried tried = SolveRestriction(
-      path.edges, options_.restriction_solver_options.value_or(options_.solver_options));
+      path.edges, options_.restriction_solver_options.value_or(options_.solver_options),
+      guide_.get());
   answer_.rounded.push_back(
       {path.edges, tried.result.objective, tried.result.termination, tried.result.message});
   if (tried.result.termination == Termination::kNoBackend) return RecoverPath(path);

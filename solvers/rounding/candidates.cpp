@@ -11,8 +11,10 @@
 #include <utility>
 
 #include "solvers/rounding/backend.hpp"
+#include "solvers/rounding/bound.hpp"
 #include "solvers/rounding/recombine.hpp"
 #include "solvers/rounding/restriction.hpp"
+#include "solvers/rounding/verdict.hpp"
 #include "solvers/rounding/verify.hpp"
 #include "switchyard/problem.hpp"
 
@@ -30,6 +32,14 @@ class Solving {
   Solving(const PathProblem& whole, const sy_host& host, const Options& options,
           std::int64_t instances, Budget& budget)
       : whole_(whole), host_(host), options_(options), instances_(instances), budget_(budget) {}
+
+  /// Never throws: what cannot be compared is tried last.
+  void Compare(Candidate& candidate) const noexcept {
+    try {
+      if (!budget_.Stopped()) Estimate(candidate);
+    } catch (const std::exception&) {
+    }
+  }
 
   /// Never throws: what fails is the candidate's reason.
   void Solve(Candidate& candidate) const noexcept {
@@ -71,6 +81,56 @@ class Solving {
     Judge(InWhole(whole_, restriction, answer.x), candidate);
   }
 
+  void Estimate(Candidate& candidate) const {
+    const Restriction restriction = Restrict(whole_, candidate.path);
+    if (!restriction.contradiction.empty()) return Exclude(restriction.contradiction, candidate);
+    const Problem problem(restriction.problem);
+    Answer answer;
+    answer.primal = SY_FEASIBLE;
+    if (!restriction.variables.empty()) {
+      const char* names = options_.solver.empty() ? nullptr : options_.solver.c_str();
+      const sy_solver& solver = FindBackend(host_, problem.view(), names, instances_);
+      answer = SolveBy(solver, host_, problem.view(), budget_.Part(1));
+    }
+    candidate.iterations = answer.iterations;
+    if (!ComparisonsBind()) return Take(std::move(answer), problem.view(), candidate);
+    ProblemData boxed = restriction.problem;
+    TakeBoxes(restriction.variables, boxed);
+    const Problem proving(std::move(boxed));
+    if (answer.dual == SY_CERTIFICATE) {
+      if (ProvesInfeasible(proving.view(), answer)) Exclude(answer.text, candidate);
+      return;
+    }
+    if (IsPoint(answer.primal)) candidate.bound = ProvenBound(proving.view(), answer, kInfinity);
+    Take(std::move(answer), problem.view(), candidate);
+  }
+
+  [[nodiscard]] bool ComparisonsBind() const {
+    return (whole_.paths().flags & SY_PATHS_BOUND) != 0;
+  }
+
+  void Exclude(const std::string& why, Candidate& candidate) const {
+    if (!ComparisonsBind()) return;
+    candidate.tried = true;
+    candidate.termination = SY_INFEASIBLE;
+    candidate.text = why;
+  }
+
+  static void Take(Answer answer, const sy_problem& problem, Candidate& candidate) {
+    if (!IsPoint(answer.primal)) return;
+    candidate.estimate = Objective(problem, answer.x.data());
+    candidate.start = std::move(answer.x);
+  }
+
+  /// The bounds that the whole problem has, which a restriction to be solved is better off without.
+  void TakeBoxes(const std::vector<std::int32_t>& variables, ProblemData& data) const {
+    const sy_problem& p = whole_.problem();
+    for (std::size_t k = 0; k < variables.size(); ++k) {
+      if (p.x_lower != nullptr) data.x_lower[k] = p.x_lower[variables[k]];
+      if (p.x_upper != nullptr) data.x_upper[k] = p.x_upper[variables[k]];
+    }
+  }
+
   /// A point that holds counts, whatever its backend says of it.
   void Judge(std::vector<double> x, Candidate& candidate) const {
     const std::string violated = WhatIsViolated(whole_.problem(), x.data(), kFeasibility);
@@ -94,6 +154,12 @@ class Solving {
     result.x = x.data();
     result.text = text.data();
     result.text_size = text.size();
+    std::vector<double> start;
+    if (!candidate.start.empty()) {
+      start = InWhole(whole_, Restrict(whole_, candidate.path), candidate.start);
+      result.relaxed = candidate.estimate;
+      result.relaxed_x = start.data();
+    }
     sy_error error{};
     const sy_paths& paths = whole_.paths();
     const sy_control control = budget_.Part(1);
@@ -104,7 +170,7 @@ class Solving {
     text.back() = '\0';
     candidate.termination = result.termination;
     candidate.text = text.data();
-    candidate.iterations = result.iterations;
+    candidate.iterations += result.iterations;
     if (result.primal != SY_FEASIBLE || !std::isfinite(result.objective)) return;
     candidate.feasible = true;
     candidate.objective = result.objective;
@@ -220,22 +286,50 @@ void SampleCandidates(const PathProblem& whole, const std::vector<double>& x,
   }
 }
 
-void SolveCandidates(const PathProblem& whole, const sy_host& host, const Options& options,
-                     std::int32_t threads, Budget& budget, std::vector<Candidate>& candidates) {
-  std::vector<Candidate*> waiting;
-  for (Candidate& c : candidates) {
-    if (!std::exchange(c.tried, true)) waiting.push_back(&c);
-  }
-  const std::size_t workers =
-      std::clamp<std::size_t>(waiting.size(), 1, static_cast<std::size_t>(std::max(1, threads)));
-  const Solving solving(whole, host, options, static_cast<std::int64_t>(workers), budget);
+namespace {
+
+/// Each of `some` by one of at most `threads` threads, which take the next one that is left.
+template <class Do>
+void ForEach(const std::vector<Candidate*>& some, std::size_t threads, Do&& act) {
   std::atomic<std::size_t> next = 0;
   const auto work = [&] {
-    for (std::size_t k = next++; k < waiting.size(); k = next++) solving.Solve(*waiting[k]);
+    for (std::size_t k = next++; k < some.size(); k = next++) act(*some[k]);
   };
   std::vector<std::jthread> others;
-  for (std::size_t w = 1; w < workers; ++w) others.emplace_back(work);
+  for (std::size_t w = 1; w < threads; ++w) others.emplace_back(work);
   work();
+}
+
+std::size_t Workers(const std::vector<Candidate*>& some, std::int32_t threads) {
+  return std::clamp<std::size_t>(some.size(), 1, static_cast<std::size_t>(std::max(1, threads)));
+}
+
+}  // namespace
+
+void CompareCandidates(const PathProblem& whole, const sy_host& host, const Options& options,
+                       std::int32_t threads, Budget& budget, std::vector<Candidate>& candidates) {
+  std::vector<Candidate*> waiting;
+  for (Candidate& c : candidates) {
+    if (!c.tried && !std::exchange(c.compared, true)) waiting.push_back(&c);
+  }
+  const std::size_t workers = Workers(waiting, threads);
+  const Solving solving(whole, host, options, static_cast<std::int64_t>(workers), budget);
+  ForEach(waiting, workers, [&](Candidate& c) { solving.Compare(c); });
+}
+
+void SolveCandidates(const PathProblem& whole, const sy_host& host, const Options& options,
+                     std::int32_t threads, Budget& budget, std::vector<Candidate>& candidates) {
+  std::vector<Candidate*> all;
+  for (Candidate& c : candidates) all.push_back(&c);
+  SolveCandidates(whole, host, options, threads, budget, std::move(all));
+}
+
+void SolveCandidates(const PathProblem& whole, const sy_host& host, const Options& options,
+                     std::int32_t threads, Budget& budget, std::vector<Candidate*> candidates) {
+  std::erase_if(candidates, [](Candidate* c) { return std::exchange(c->tried, true); });
+  const std::size_t workers = Workers(candidates, threads);
+  const Solving solving(whole, host, options, static_cast<std::int64_t>(workers), budget);
+  ForEach(candidates, workers, [&](Candidate& c) { solving.Solve(c); });
 }
 
 }  // namespace switchyard::rounding

@@ -8,7 +8,7 @@
 
 #include "solvers/rounding/bound.hpp"
 #include "solvers/rounding/general.hpp"
-#include "solvers/rounding/recombine.hpp"
+#include "solvers/rounding/path_search.hpp"
 #include "solvers/rounding/tightened.hpp"
 #include "solvers/rounding/verdict.hpp"
 #include "solvers/rounding/vertex_hull.hpp"
@@ -26,16 +26,20 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 class Run {
  public:
   Run(const PathProblem& whole, const Options& options, const sy_host& host, Budget& budget)
-      : whole_(whole), p_(whole.problem()), options_(options), host_(host), budget_(budget) {}
+      : whole_(whole),
+        p_(whole.problem()),
+        options_(options),
+        host_(host),
+        budget_(budget),
+        search_(whole, options, host, budget) {}
 
   void Solve() {
     if (!TargetIsReached()) return Finish(SY_INFEASIBLE, "no arcs lead from source to target");
     if (budget_.Stopped()) return Finish(budget_.reason(), "");
     Relax();
     if (const auto end = EndOfRelaxation()) return Finish(*end, "");
-    Round();
-    Recombine();
-    if (candidates_.empty()) {
+    search_.Run(relaxed_.x, BoundsPaths() ? bound_ : -kInfinity);
+    if (search_.NumTried() == 0) {
       return Finish(SY_NO_PATH, "the relaxed flow holds no path from source to target");
     }
     KeepTheBest();
@@ -101,12 +105,8 @@ class Run {
   /// Is the path that the flow draws most often within the gap of the bound? It stays a candidate.
   bool LikeliestPathWillDo() {
     if (options_.paths == 0 || whole_.paths().solve_path != nullptr) return false;
-    const std::size_t before = candidates_.size();
-    AddLikeliest(whole_, relaxed_.x, options_, candidates_);
-    if (candidates_.size() == before) return false;
-    SolveCandidates(whole_, host_, options_, budget_.control().threads, budget_, candidates_);
-    const Candidate& likeliest = candidates_.back();
-    return likeliest.feasible && IsWithinTheGap(likeliest.objective);
+    const Candidate* likeliest = search_.TryLikeliest(relaxed_.x);
+    return likeliest != nullptr && likeliest->feasible && IsWithinTheGap(likeliest->objective);
   }
 
   /// What a round must add to the relaxation for another one to be worth it: where there is a path,
@@ -114,7 +114,7 @@ class Run {
   [[nodiscard]] double LeastGain(double relaxed) const {
     constexpr double kOfValue = 1e-5, kOfGap = 0.05;
     double least = kOfValue * (1 + std::abs(relaxed));
-    for (const Candidate& c : candidates_) {
+    for (const Candidate& c : search_.candidates()) {
       if (c.feasible) least = std::max(least, kOfGap * (c.objective - relaxed));
     }
     return least;
@@ -132,96 +132,9 @@ class Run {
     if (relaxed_.dual != SY_CERTIFICATE) bound_ = ProvenBound(p_, relaxed_, kInfinity);
   }
 
-  // The likeliest draw is worth a try, drawn or not. A path that turns out to have no point does
-  // not count: another one is drawn for it.
-  void Round() {
-    Random random(budget_.control().seed);
-    int trials = options_.trials;
-    const auto wanted = static_cast<std::size_t>(options_.paths);
-    AddLikeliest(whole_, relaxed_.x, options_, candidates_);
-    for (std::size_t tried = 0; !budget_.Stopped(); tried = candidates_.size()) {
-      const auto missing = wanted - std::min(wanted, NumFeasible());
-      const std::size_t waiting = candidates_.size() - std::min(candidates_.size(), NumTried());
-      SampleCandidates(whole_, relaxed_.x, options_, missing - std::min(missing, waiting), random,
-                       trials, candidates_);
-      if (candidates_.size() == tried) break;
-      SolveCandidates(whole_, host_, options_, budget_.control().threads, budget_, candidates_);
-    }
-  }
-
-  // Detours of the best path along the others, and where they do not help likely deviations: as
-  // many as paths were asked for, as long as one of them is better than what it was made from. What
-  // a front end's own restrictions cost is not known: it gets detours alone.
-  void Recombine() {
-    std::size_t left = static_cast<std::size_t>(options_.paths);
-    const bool deviates = whole_.paths().solve_path == nullptr;
-    while (Improve(DetoursOfBest(), left) || (deviates && Improve(DeviationsOfBest(), left))) {
-    }
-  }
-
-  using Paths = std::vector<std::vector<std::int32_t>>;
-
-  [[nodiscard]] Paths DetoursOfBest() const {
-    Paths detours;
-    const Candidate* best = Best();
-    for (const Candidate& c : candidates_) {
-      if (best == nullptr || !c.feasible) continue;
-      for (auto& detour : Detours(whole_.arcs(), best->path, c.path)) {
-        detours.push_back(std::move(detour));
-      }
-    }
-    return detours;
-  }
-
-  /// Of the best path first, then of the next.
-  [[nodiscard]] Paths DeviationsOfBest() const {
-    std::vector<const Candidate*> order;
-    for (const Candidate& c : candidates_) {
-      if (c.feasible) order.push_back(&c);
-    }
-    std::stable_sort(order.begin(), order.end(), [](const Candidate* a, const Candidate* b) {
-      return a->objective < b->objective;
-    });
-    Paths deviations;
-    if (order.empty() || IsWithinTheGap(order.front()->objective)) return deviations;
-    const auto enough = 4 * static_cast<std::size_t>(options_.paths);  // some are known
-    for (const Candidate* c : order) {
-      if (deviations.size() > enough) break;
-      for (auto& path : LikelyDeviations(whole_, relaxed_.x, options_, c->path)) {
-        deviations.push_back(std::move(path));
-      }
-    }
-    return deviations;
-  }
-
-  /// Is one of the paths, of which `left` are tried at most, better than the best so far?
-  bool Improve(Paths paths, std::size_t& left) {
-    if (paths.empty() || left == 0 || budget_.Stopped()) return false;
-    const double before = Best()->objective;
-    const std::size_t count = candidates_.size();
-    for (auto& path : paths) {
-      if (left > 0 && AddPath(std::move(path), candidates_)) --left;
-    }
-    if (candidates_.size() == count) return false;
-    SolveCandidates(whole_, host_, options_, budget_.control().threads, budget_, candidates_);
-    return Best()->objective < before;
-  }
-
-  [[nodiscard]] const Candidate* Best() const {
-    const Candidate* best = nullptr;
-    for (const Candidate& c : candidates_) {
-      if (c.feasible && (best == nullptr || c.objective < best->objective)) best = &c;
-    }
-    return best;
-  }
-
-  [[nodiscard]] std::size_t NumFeasible() const {
-    return static_cast<std::size_t>(std::count_if(candidates_.begin(), candidates_.end(),
-                                                  [](const Candidate& c) { return c.feasible; }));
-  }
-  [[nodiscard]] std::size_t NumTried() const {
-    return static_cast<std::size_t>(std::count_if(candidates_.begin(), candidates_.end(),
-                                                  [](const Candidate& c) { return c.tried; }));
+  /// What a front end's own restrictions cost may be less than what this problem says.
+  [[nodiscard]] bool BoundsPaths() const {
+    return whole_.paths().solve_path == nullptr || (whole_.paths().flags & SY_PATHS_BOUND) != 0;
   }
 
   [[nodiscard]] bool CanBeTightened() {
@@ -299,8 +212,8 @@ class Run {
 
   // In the order of the paths, whatever the order in which they were solved.
   void KeepTheBest() {
-    for (const Candidate& c : candidates_) {
-      if (c.feasible) ++num_feasible_;
+    for (const Candidate& c : search_.candidates()) {
+      if (!c.tried) continue;
       if (c.feasible && (best_ == nullptr || c.objective < best_->objective)) {
         best_ = &c;
         budget_.Tell(c.objective, bound_, c.verified ? c.x.data() : nullptr);
@@ -343,7 +256,10 @@ class Run {
 
   [[nodiscard]] std::string ReasonOfFailure() const {
     if (best_ != nullptr) return "";
-    const Candidate& first = candidates_.front();
+    const auto& all = search_.candidates();
+    const auto found =
+        std::find_if(all.begin(), all.end(), [](const Candidate& c) { return c.tried; });
+    const Candidate& first = *found;
     return "the first path: " + (first.text.empty() ? "no feasible point" : first.text);
   }
 
@@ -353,8 +269,10 @@ class Run {
     if (!relaxation_id_.empty()) {
       text << "relaxation by " << relaxation_id_ << " in " << relaxation_seconds_ << " s";
       if (num_cuts_ > 0) text << " with " << num_cuts_ << " cuts in " << rounds_ << " rounds";
-      if (!candidates_.empty()) {
-        text << "; " << num_feasible_ << " of " << candidates_.size() << " paths feasible";
+      if (const std::size_t tried = search_.NumTried(); tried > 0) {
+        text << "; " << search_.NumFeasible() << " of " << tried << " paths feasible";
+        const std::size_t compared = search_.candidates().size() - tried;
+        if (compared > 0) text << ", " << compared << " more compared";
       } else if (!relaxed_.text.empty()) {
         text << ": " << relaxed_.text;
       }
@@ -376,9 +294,8 @@ class Run {
   int num_cuts_ = 0, rounds_ = 0;
   bool contradiction_ = false;  // proven, of the tightened relaxation
   double bound_ = -kInfinity;
-  std::vector<Candidate> candidates_;
+  PathSearch search_;
   const Candidate* best_ = nullptr;
-  int num_feasible_ = 0;
   sy_termination termination_ = SY_NOT_SOLVED;
   std::string text_;
 };
@@ -394,7 +311,7 @@ void Run::Write(sy_result& result) const {
   result.bound = bound_;
   result.iterations = relaxed_.iterations;
   result.nodes = 0;
-  for (const Candidate& c : candidates_) result.iterations += c.iterations;
+  for (const Candidate& c : search_.candidates()) result.iterations += c.iterations;
   if (best_ != nullptr) result.objective = best_->objective;
   if (best_ != nullptr && best_->verified) {
     result.primal = SY_FEASIBLE;
