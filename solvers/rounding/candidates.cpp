@@ -12,7 +12,6 @@
 
 #include "solvers/rounding/backend.hpp"
 #include "solvers/rounding/bound.hpp"
-#include "solvers/rounding/recombine.hpp"
 #include "solvers/rounding/restriction.hpp"
 #include "solvers/rounding/verdict.hpp"
 #include "solvers/rounding/verify.hpp"
@@ -189,8 +188,6 @@ class Solving {
 
 namespace {
 
-/// Of each arc, -log of its part of the flow out of its tail; infinity where the tolerance is not
-/// passed.
 std::vector<double> Improbabilities(const Arcs& arcs, const std::vector<double>& flow,
                                     double tolerance) {
   std::vector<double> through(static_cast<std::size_t>(arcs.num_vertices), 0.0);
@@ -264,13 +261,9 @@ void AddLikeliest(const PathProblem& whole, const std::vector<double>& x, const 
   if (!path.empty()) AddPath(std::move(path), candidates);
 }
 
-std::vector<std::vector<std::int32_t>> LikelyDeviations(const PathProblem& whole,
-                                                        const std::vector<double>& x,
-                                                        const Options& options,
-                                                        std::span<const std::int32_t> path) {
-  const std::vector<double> length =
-      Improbabilities(whole.arcs(), FlowIn(whole, x), options.flow_tolerance);
-  return Deviations(whole.arcs(), whole.out(), length, path, whole.paths().target);
+std::vector<double> Improbabilities(const PathProblem& whole, const std::vector<double>& x,
+                                    const Options& options) {
+  return Improbabilities(whole.arcs(), FlowIn(whole, x), options.flow_tolerance);
 }
 
 void SampleCandidates(const PathProblem& whole, const std::vector<double>& x,

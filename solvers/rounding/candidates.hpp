@@ -39,11 +39,10 @@ bool AddPath(std::vector<std::int32_t> path, std::vector<Candidate>& candidates)
 void AddLikeliest(const PathProblem& whole, const std::vector<double>& x, const Options& options,
                   std::vector<Candidate>& candidates);
 
-/// Paths that leave a path by an arc with flow and go on by the likeliest way, the likeliest first.
-std::vector<std::vector<std::int32_t>> LikelyDeviations(const PathProblem& whole,
-                                                        const std::vector<double>& x,
-                                                        const Options& options,
-                                                        std::span<const std::int32_t> path);
+/// Of each arc, -log of its part of the flow out of its tail; infinity where the tolerance is not
+/// passed: what makes the likeliest path the shortest.
+std::vector<double> Improbabilities(const PathProblem& whole, const std::vector<double>& x,
+                                    const Options& options);
 
 /// Adds up to `count` others, drawn from the relaxed point's flows, and takes the draws from
 /// `trials`.

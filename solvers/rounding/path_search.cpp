@@ -1,6 +1,7 @@
 #include "solvers/rounding/path_search.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -11,6 +12,7 @@ namespace switchyard::rounding {
 namespace {
 
 constexpr std::size_t kCompared = 8;  // for each path to try
+constexpr std::size_t kRounds = 8;    // for each path to draw that many are made, at most
 constexpr double kSame = 1e-8;        // costs that far apart, relative, are one
 
 std::size_t Less(std::size_t a, std::size_t b) { return a - std::min(a, b); }
@@ -26,8 +28,13 @@ const Candidate* PathSearch::TryLikeliest(const std::vector<double>& relaxed) {
 }
 
 void PathSearch::Run(const std::vector<double>& relaxed, double bound) {
-  Compares() ? DrawAndCompare(relaxed) : Draw(relaxed);
-  Recombine(relaxed, bound);
+  length_ = Improbabilities(whole_, relaxed, options_);
+  if (!Compares()) {
+    Draw(relaxed);
+    return Recombine(bound);
+  }
+  DrawAndCompare(relaxed);
+  RecombineCompared();
 }
 
 // The likeliest draw is worth a try, drawn or not. A path that turns out to have no point does not
@@ -63,11 +70,36 @@ void PathSearch::DrawAndCompare(const std::vector<double>& relaxed) {
   }
 }
 
-// Detours of the best path along the others, and where they do not help likely deviations: as many
-// as paths were asked for, as long as one of them is better than what it was made from.
-void PathSearch::Recombine(const std::vector<double>& relaxed, double bound) {
+// Around the best path, as long as one is better: detours along the others, where they do not help
+// exchanges of a few vertices, then likely deviations; of each as many as paths were asked for.
+void PathSearch::Recombine(double bound) {
+  constexpr std::array kWays = {&PathSearch::Detours, &PathSearch::Exchanges,
+                                &PathSearch::Deviations};
+  const std::size_t enough =
+      candidates_.size() + kRounds * static_cast<std::size_t>(options_.paths);
+  while (candidates_.size() < enough && Best() != nullptr &&
+         !IsWithinTheGap(budget_.control(), Best()->objective, bound)) {
+    const bool better = std::any_of(kWays.begin(), kWays.end(),
+                                    [this](auto way) { return Improve((this->*way)()); });
+    if (!better) return;
+  }
+}
+
+// The same, all at once: what was compared says which are worth a try.
+void PathSearch::RecombineCompared() {
   auto left = static_cast<std::size_t>(options_.paths);
-  while (Improve(Detours(), left) || Improve(Deviations(relaxed, bound), left)) {
+  const std::size_t share = std::max<std::size_t>(1, left / 3);
+  while (left > 0 && Best() != nullptr && !budget_.Stopped()) {
+    std::size_t more = kCompared * static_cast<std::size_t>(options_.paths);
+    for (Paths& paths : std::array{Detours(), Exchanges(), Deviations()}) {
+      for (auto& path : paths) {
+        if (more > 0 && AddPath(std::move(path), candidates_)) --more;
+      }
+    }
+    Compare();
+    const std::size_t tried = TryPromising(share, std::min(share, left));
+    if (tried == 0) return;
+    left -= tried;
   }
 }
 
@@ -83,8 +115,14 @@ PathSearch::Paths PathSearch::Detours() const {
   return detours;
 }
 
+PathSearch::Paths PathSearch::Exchanges() const {
+  const Candidate* best = Best();
+  if (best == nullptr) return {};
+  return rounding::Exchanges(whole_.arcs(), whole_.out(), length_, best->path);
+}
+
 /// Of the best path first, then of the next.
-PathSearch::Paths PathSearch::Deviations(const std::vector<double>& relaxed, double bound) const {
+PathSearch::Paths PathSearch::Deviations() const {
   std::vector<const Candidate*> order;
   for (const Candidate& c : candidates_) {
     if (c.feasible) order.push_back(&c);
@@ -93,42 +131,27 @@ PathSearch::Paths PathSearch::Deviations(const std::vector<double>& relaxed, dou
     return a->objective < b->objective;
   });
   Paths deviations;
-  if (order.empty() || IsWithinTheGap(budget_.control(), order.front()->objective, bound)) {
-    return deviations;
-  }
   const auto enough = 4 * static_cast<std::size_t>(options_.paths);  // some are known
   for (const Candidate* c : order) {
     if (deviations.size() > enough) break;
-    for (auto& path : LikelyDeviations(whole_, relaxed, options_, c->path)) {
+    for (auto& path : rounding::Deviations(whole_.arcs(), whole_.out(), length_, c->path,
+                                           whole_.paths().target)) {
       deviations.push_back(std::move(path));
     }
   }
   return deviations;
 }
 
-/// Is one of the paths, of which `left` are tried at most, better than the best so far?
-bool PathSearch::Improve(Paths paths, std::size_t& left) {
-  if (paths.empty() || left == 0 || budget_.Stopped()) return false;
-  if (Compares()) return ImproveCompared(std::move(paths), left);
+/// Is one of the first that are new, as many as paths were asked for, better than the best so far?
+bool PathSearch::Improve(Paths paths) {
+  if (budget_.Stopped()) return false;
   const double before = Best()->objective;
-  const std::size_t count = candidates_.size();
+  auto most = static_cast<std::size_t>(options_.paths);
   for (auto& path : paths) {
-    if (left > 0 && AddPath(std::move(path), candidates_)) --left;
+    if (most > 0 && AddPath(std::move(path), candidates_)) --most;
   }
-  if (candidates_.size() == count) return false;
   TryAll();
-  return Best()->objective < before;
-}
-
-bool PathSearch::ImproveCompared(Paths paths, std::size_t& left) {
-  const double before = Best()->objective;
-  std::size_t more = kCompared * left;
-  for (auto& path : paths) {
-    if (more > 0 && AddPath(std::move(path), candidates_)) --more;
-  }
-  Compare();
-  left -= TryPromising(left, left);
-  return Best()->objective < before;
+  return Best()->objective < before - kSame * (1 + std::abs(before));
 }
 
 bool PathSearch::MayBeBest(const Candidate& candidate) const {

@@ -40,11 +40,12 @@ class PathSearch {
 
   void Draw(const std::vector<double>& relaxed);
   void DrawAndCompare(const std::vector<double>& relaxed);
-  void Recombine(const std::vector<double>& relaxed, double bound);
+  void Recombine(double bound);
+  void RecombineCompared();
   [[nodiscard]] Paths Detours() const;
-  [[nodiscard]] Paths Deviations(const std::vector<double>& relaxed, double bound) const;
-  bool Improve(Paths paths, std::size_t& left);
-  bool ImproveCompared(Paths paths, std::size_t& left);
+  [[nodiscard]] Paths Exchanges() const;
+  [[nodiscard]] Paths Deviations() const;
+  bool Improve(Paths paths);
 
   [[nodiscard]] bool Compares() const { return whole_.paths().solve_path != nullptr; }
   [[nodiscard]] bool MayBeBest(const Candidate& candidate) const;
@@ -59,6 +60,7 @@ class PathSearch {
   const sy_host& host_;
   Budget& budget_;
   std::vector<Candidate> candidates_;
+  std::vector<double> length_;  // of arcs: short paths are likely
 };
 
 }  // namespace switchyard::rounding

@@ -40,6 +40,17 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 std::size_t At(std::int32_t i) { return static_cast<std::size_t>(i); }
 
+using Ranked = std::vector<std::pair<double, std::vector<std::int32_t>>>;
+
+/// The paths alone, the shortest first.
+std::vector<std::vector<std::int32_t>> InOrder(Ranked found) {
+  std::stable_sort(found.begin(), found.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<std::vector<std::int32_t>> paths;
+  for (auto& [total, path] : found) paths.push_back(std::move(path));
+  return paths;
+}
+
 /// Ways to a target beside vertices that are not to be met.
 class WaysTo {
  public:
@@ -86,7 +97,7 @@ std::vector<std::vector<std::int32_t>> Deviations(const Arcs& arcs, const Leavin
                                                   std::span<const double> length,
                                                   std::span<const std::int32_t> path,
                                                   std::int32_t target) {
-  std::vector<std::pair<double, std::vector<std::int32_t>>> found;
+  Ranked found;
   std::vector<std::uint8_t> met(At(arcs.num_vertices), 0);
   double before = 0;
   for (std::size_t k = 0; k < path.size(); ++k) {
@@ -103,11 +114,91 @@ std::vector<std::vector<std::int32_t>> Deviations(const Arcs& arcs, const Leavin
     }
     before += length[At(path[k])];
   }
-  std::stable_sort(found.begin(), found.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::vector<std::vector<std::int32_t>> paths;
-  for (auto& [total, other] : found) paths.push_back(std::move(other));
-  return paths;
+  return InOrder(std::move(found));
+}
+
+namespace {
+
+/// Ways of at most three arcs in the place of a stretch of a path.
+class Exchanging {
+ public:
+  Exchanging(const Arcs& arcs, const Leaving& out, std::span<const double> length,
+             std::span<const std::int32_t> path)
+      : arcs_(arcs), out_(out), length_(length), path_(path), met_(At(arcs.num_vertices), 0) {
+    for (const std::int32_t a : path) {
+      met_[At(arcs.tail[At(a)])] = met_[At(arcs.head[At(a)])] = 1;
+      whole_ += length[At(a)];
+    }
+  }
+
+  /// Of arcs [from, to) of the path.
+  void Exchange(std::size_t from, std::size_t to) {
+    from_ = from;
+    to_ = to;
+    kept_ = whole_;
+    for (std::size_t k = from; k < to; ++k) kept_ -= length_[At(path_[k])];
+    for (std::size_t k = from + 1; k < to; ++k) met_[At(arcs_.tail[At(path_[k])])] = 0;
+    Extend(arcs_.tail[At(path_[from])]);
+    for (std::size_t k = from + 1; k < to; ++k) met_[At(arcs_.tail[At(path_[k])])] = 1;
+  }
+  [[nodiscard]] Ranked found() && { return std::move(found_); }
+
+ private:
+  void Extend(std::int32_t v) {
+    constexpr std::size_t kMost = 3;
+    const std::int32_t end = arcs_.head[At(path_[to_ - 1])];
+    for (const std::int32_t a : out_.Of(v)) {
+      const std::int32_t w = arcs_.head[At(a)];
+      if (!(length_[At(a)] < kInfinity) || (w != end && met_[At(w)] != 0)) continue;
+      way_.push_back(a);
+      if (w == end) {
+        Take();
+      } else if (way_.size() < kMost) {
+        met_[At(w)] = 1;
+        Extend(w);
+        met_[At(w)] = 0;
+      }
+      way_.pop_back();
+    }
+  }
+
+  // Where it begins or ends as the path does, a shorter stretch has the same.
+  void Take() {
+    if (way_.front() == path_[from_] || way_.back() == path_[to_ - 1]) return;
+    std::vector<std::int32_t> other(path_.begin(), path_.begin() + Offset(from_));
+    other.insert(other.end(), way_.begin(), way_.end());
+    other.insert(other.end(), path_.begin() + Offset(to_), path_.end());
+    double total = kept_;
+    for (const std::int32_t a : way_) total += length_[At(a)];
+    found_.emplace_back(total, std::move(other));
+  }
+
+  static std::ptrdiff_t Offset(std::size_t k) { return static_cast<std::ptrdiff_t>(k); }
+
+  const Arcs& arcs_;
+  const Leaving& out_;
+  std::span<const double> length_;
+  std::span<const std::int32_t> path_;
+  std::vector<std::uint8_t> met_;
+  double whole_ = 0, kept_ = 0;
+  std::size_t from_ = 0, to_ = 0;
+  std::vector<std::int32_t> way_;
+  Ranked found_;
+};
+
+}  // namespace
+
+std::vector<std::vector<std::int32_t>> Exchanges(const Arcs& arcs, const Leaving& out,
+                                                 std::span<const double> length,
+                                                 std::span<const std::int32_t> path) {
+  constexpr std::size_t kMost = 3;  // arcs
+  Exchanging exchanging(arcs, out, length, path);
+  for (std::size_t from = 0; from < path.size(); ++from) {
+    for (std::size_t to = from + 1; to <= std::min(path.size(), from + kMost); ++to) {
+      exchanging.Exchange(from, to);
+    }
+  }
+  return InOrder(std::move(exchanging).found());
 }
 
 }  // namespace switchyard::rounding

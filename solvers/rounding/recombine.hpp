@@ -22,4 +22,10 @@ std::vector<std::vector<std::int32_t>> Deviations(const Arcs& arcs, const Leavin
                                                   std::span<const std::int32_t> path,
                                                   std::int32_t target);
 
+/// `path` with up to two vertices in a row left out, and up to two put in their place: by arcs of
+/// finite length, simple, the shortest first. So two neighbours change places, too.
+std::vector<std::vector<std::int32_t>> Exchanges(const Arcs& arcs, const Leaving& out,
+                                                 std::span<const double> length,
+                                                 std::span<const std::int32_t> path);
+
 }  // namespace switchyard::rounding
