@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <random>
 #include <set>
 
@@ -147,6 +148,61 @@ TEST(Deviations, AreTheShortestPathsThatLeaveAPathThere) {
     }
   }
   EXPECT_GT(made, 500u);
+}
+
+/// Simple paths that differ from one in a stretch of at most three arcs, by arcs that may be used,
+/// by their lengths.
+std::multimap<double, Path> ExchangesByDefinition(const Graph& g, const Path& path,
+                                                  const std::vector<double>& length) {
+  std::multimap<double, Path> all;
+  for (const Path& other : g.paths) {
+    const auto shorter = std::min(path.size(), other.size());
+    std::size_t front = 0, back = 0;
+    while (front < shorter && path[front] == other[front]) ++front;
+    while (front + back < shorter && path[path.size() - 1 - back] == other[other.size() - 1 - back])
+      ++back;
+    if (other == path || std::max(path.size(), other.size()) - front - back > 3) continue;
+    double sum = 0;
+    for (const std::int32_t a : other) sum += length[At(a)];
+    if (sum < HUGE_VAL) all.emplace(sum, other);
+  }
+  return all;
+}
+
+TEST(Exchanges, AreThePathsThatDifferInAShortStretchTheShortestFirst) {
+  std::size_t made = 0, turned = 0;
+  for (std::uint64_t seed = 1; seed <= 800; ++seed) {
+    const Graph g(seed);
+    std::mt19937_64 engine(seed);
+    std::vector<double> length;
+    for (std::size_t a = 0; a < g.tail.size(); ++a) {
+      length.push_back(engine() % 6 == 0 ? HUGE_VAL : 0.1 + 1e-3 * double(engine() % 1000));
+    }
+    for (const Path& path : g.paths) {
+      double total = 0;
+      for (const std::int32_t a : path) total += length[At(a)];
+      if (total == HUGE_VAL) continue;
+      const auto exchanges = rounding::Exchanges(g.arcs(), Leaving(g.arcs()), length, path);
+      const auto expected = ExchangesByDefinition(g, path, length);
+      std::set<Path> wanted, all(exchanges.begin(), exchanges.end());
+      for (const auto& [sum, other] : expected) wanted.insert(other);
+      EXPECT_EQ(all, wanted);
+      ASSERT_EQ(exchanges.size(), expected.size());  // none twice
+      auto next = expected.begin();
+      for (const Path& other : exchanges) {
+        double sum = 0;
+        for (const std::int32_t a : other) sum += length[At(a)];
+        EXPECT_NEAR(sum, (next++)->first, 1e-12);
+        auto along = g.Along(path), by_other = g.Along(other);
+        std::sort(along.begin(), along.end());
+        std::sort(by_other.begin(), by_other.end());
+        turned += along == by_other && g.Along(path) != g.Along(other) ? 1 : 0;
+      }
+      made += exchanges.size();
+    }
+  }
+  EXPECT_GT(made, 1000u);
+  EXPECT_GT(turned, 5u);  // the same vertices in another order
 }
 
 }  // namespace
