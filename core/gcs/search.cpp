@@ -8,6 +8,7 @@
 #include "core/gcs/restriction.hpp"
 #include "core/solve/control.hpp"
 #include "core/solve/dump.hpp"
+#include "switchyard/arcs.hpp"
 #include "switchyard/error.hpp"
 #include "switchyard/plugin.hpp"
 
@@ -29,6 +30,13 @@ void Say(const std::string& text, sy_result& result) {
   const std::size_t length = std::min<std::size_t>(text.size(), result.text_size - 1);
   std::copy_n(text.data(), length, result.text);
   result.text[length] = '\0';
+}
+
+// A start on an axis of symmetry, as optima of convex terms are, may stay there: at a saddle.
+void LeaveSymmetry(Eigen::VectorXd& start) {
+  constexpr double kApart = 1e-4;
+  Random random(1);
+  for (double& x : start) x += kApart * (1 + std::abs(x)) * (2 * random.Uniform() - 1);
 }
 
 }  // namespace
@@ -231,6 +239,7 @@ Search::Tried Search::SolveRestriction(const std::vector<const Edge*>& edges, So
       edges.empty() ? RestrictionOf({&source_}, {}) : RestrictionOf(VerticesOf(edges), edges);
   std::optional<Eigen::VectorXd> start;
   if (guide != nullptr) start = StartFrom(*guide, *tried.program, edges);
+  if (start) LeaveSymmetry(*start);
   const bool own = options_.restriction_solver != nullptr;
   const SolverInterface named(NamesOf(own ? options_.restriction_solver : options_.solver), host_);
   tried.result = named.Solve(*tried.program, start, options);

@@ -11,7 +11,7 @@
 namespace switchyard::rounding {
 namespace {
 
-constexpr std::size_t kCompared = 8;  // for each path to try
+constexpr std::size_t kCompared = 3;  // for each path to try
 constexpr std::size_t kRounds = 8;    // for each path to draw that many are made, at most
 constexpr double kSame = 1e-8;        // costs that far apart, relative, are one
 

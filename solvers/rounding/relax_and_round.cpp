@@ -43,7 +43,6 @@ class Run {
       return Finish(SY_NO_PATH, "the relaxed flow holds no path from source to target");
     }
     KeepTheBest();
-    CloseTheBound();
     Finish(Verdict(), ReasonOfFailure());
   }
 
@@ -61,6 +60,7 @@ class Run {
     const double begin = budget_.Seconds();
     SolveRelaxation(whole_.relaxation());
     if (options_.cut_rounds > 0 && Tightened::Serves(whole_)) Tighten();
+    CloseTheBound();
     relaxation_seconds_ = budget_.Seconds() - begin;
     budget_.Tell(kNaN, bound_, nullptr);
     TellRelaxation();
@@ -239,15 +239,16 @@ class Run {
     paths.tried(paths.context, c.path.data(), static_cast<std::int32_t>(c.path.size()), &told);
   }
 
-  // The best objective makes boxes narrower, or finite: where the duals are good, the bound needs
-  // none of that. It must be an objective of this problem.
+  // What costs no more than the relaxed point lies in narrower boxes, or in finite ones; what costs
+  // more is bounded by that. Where the duals are good, the bound needs none of that.
   void CloseTheBound() {
-    constexpr double kGood = 1e-6;
-    if (best_ == nullptr || !best_->verified || relaxed_.dual == SY_CERTIFICATE) return;
+    constexpr double kGood = 1e-7, kSlack = 1e-6;
+    if (!IsPoint(relaxed_.primal) || relaxed_.dual == SY_CERTIFICATE) return;
     const double relaxed = Objective(p_, relaxed_.x.data());
-    if (relaxed - bound_ <= kGood * (1 + std::abs(relaxed))) return;
+    const double size = 1 + std::abs(relaxed);
+    if (relaxed - bound_ <= kGood * size) return;
     const sy_problem& problem = num_cuts_ > 0 ? tightened_.view() : p_;
-    bound_ = std::max(bound_, ProvenBound(problem, relaxed_, best_->objective));
+    bound_ = std::max(bound_, ProvenBound(problem, relaxed_, relaxed + kSlack * size));
   }
 
   [[nodiscard]] sy_termination Verdict() const {
