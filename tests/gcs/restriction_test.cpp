@@ -7,7 +7,11 @@
 #include <cmath>
 #include <cstdlib>
 #include <functional>
+#include <memory>
+#include <mutex>
+#include <vector>
 
+#include "switchyard/gcs/shortest_path.hpp"
 #include "tests/gcs/grid.hpp"
 
 namespace switchyard::testing {
@@ -311,6 +315,49 @@ TEST(RestrictionMistakes, NameTheEdgeOrThePair) {
             }),
             "SolveConvexRestriction: no edge leads from vertex b to vertex c but such whose phi is "
             "fixed to 0");
+}
+
+/// Nothing, and where it was asked for.
+class Visits final : public Cost {
+ public:
+  Visits() : Cost(1) {}
+  [[nodiscard]] std::string Kind() const override { return "visits"; }
+  [[nodiscard]] std::vector<double> at() const {
+    const std::lock_guard lock(mutex_);
+    return at_;
+  }
+
+ private:
+  [[nodiscard]] Eigen::VectorXd DoEval(const VectorRef& x) const override {
+    const std::lock_guard lock(mutex_);
+    at_.push_back(x[0]);
+    return Eigen::VectorXd::Zero(1);
+  }
+  mutable std::mutex mutex_;
+  mutable std::vector<double> at_;
+};
+
+// Half of the flow takes each of two edges, one of which needs -1 of a and the other 1: 0 on
+// average, where no path has a point.
+TEST_F(Restriction, OfAPathThatWasRoundedStartsAtThePathsOwnPoint) {
+  for (const char* backend : {"ipopt", "relax-and-round"}) {
+    if (Host::Default().Find(backend) == nullptr) GTEST_SKIP() << backend << " is not built";
+  }
+  Vertex* s = graph.AddVertex(At(0), "s");
+  Vertex* a = graph.AddVertex(Interval(-2, 2), "a");
+  Vertex* t = graph.AddVertex(At(0), "t");
+  for (const double side : {-1.0, 1.0}) {
+    Edge* edge = graph.AddEdge(s, a);
+    edge->AddConstraint(edge->xv()[0] == side);
+  }
+  graph.AddEdge(a, t);
+  const auto visits = std::make_shared<Visits>();
+  a->AddCost(Binding<Cost>(visits, a->x()), {Transcription::kRestriction});
+  const ShortestPath found = FindShortestPath(graph, *s, *t, options);
+  ASSERT_EQ(found.result.primal, PointKind::kFeasible) << found.result.message;
+  EXPECT_EQ(found.rounded.size(), 2u);
+  ASSERT_FALSE(visits->at().empty());
+  EXPECT_NEAR(std::abs(visits->at().front()), 1, 0.1);
 }
 
 }  // namespace
