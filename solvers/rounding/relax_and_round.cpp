@@ -242,7 +242,7 @@ class Run {
   // What costs no more than the relaxed point lies in narrower boxes, or in finite ones; what costs
   // more is bounded by that. Where the duals are good, the bound needs none of that.
   void CloseTheBound() {
-    constexpr double kGood = 1e-7, kSlack = 1e-6;
+    constexpr double kGood = 5e-7, kSlack = 1e-6;
     if (!IsPoint(relaxed_.primal) || relaxed_.dual == SY_CERTIFICATE) return;
     const double relaxed = Objective(p_, relaxed_.x.data());
     const double size = 1 + std::abs(relaxed);

@@ -152,6 +152,30 @@ TEST(GcsTrajectory, ThereMayBeNoWay) {
   EXPECT_EQ(found.trajectory.get_number_of_segments(), 0);
 }
 
+/// An error of the duals counts as often as the durations are long; but no segment takes longer
+/// than all of the relaxation costs.
+TEST(GcsTrajectory, ARelaxationIsSupportedHoweverLongSegmentsMayTake) {
+  ConvexSets tiles;
+  for (int k = 0; k < 16; ++k) {
+    const Vector2d at(k / 4, k % 4), half(0.65, 0.6);
+    tiles.emplace_back(Hyperrectangle(at - half, at + half));
+  }
+  Through problem(Vector2d(0, 0), tiles, Vector2d(3, 3), 3, 1e-2, 1e5);
+  problem.gcs.AddTimeCost();
+  problem.gcs.AddPathLengthCost();
+  problem.gcs.AddVelocityBounds(Vector2d(-1, -1), Vector2d(1, 1));
+  problem.gcs.AddPathContinuityConstraints(1);
+  GraphOfConvexSetsOptions options;
+  options.max_rounded_paths = 0;
+  const GcsTrajectory relaxed = problem.Find(options);
+  const double cost = relaxed.search.relaxation_cost;
+  EXPECT_GE(relaxed.result().bound, cost - 1e-6 * (1 + cost));
+  EXPECT_NE(relaxed.result().termination, Termination::kNumericalTrouble);
+  const GcsTrajectory found = problem.Find();
+  ASSERT_TRUE(found.result().is_success()) << found.result().message;
+  EXPECT_LE(relaxed.result().bound, found.result().objective + 1e-9);
+}
+
 TEST(GcsTrajectory, ALooseRelaxationAloneIsNoSolution) {
   // Two ways of the same length round a hole: the flow halves, and means of both are on neither.
   const auto box = [](double l, double b, double r, double t) {
