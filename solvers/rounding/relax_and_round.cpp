@@ -39,6 +39,7 @@ class Run {
     Relax();
     if (const auto end = EndOfRelaxation()) return Finish(*end, "");
     search_.Run(relaxed_.x, BoundsPaths() ? bound_ : -kInfinity);
+    if (search_.NumTried() == 0 && budget_.Stopped()) return Finish(budget_.reason(), "");
     if (search_.NumTried() == 0) {
       return Finish(SY_NO_PATH, "the relaxed flow holds no path from source to target");
     }

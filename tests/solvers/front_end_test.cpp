@@ -63,6 +63,10 @@ class OwnRestrictions : public testing::Test {
 
   StrategyAnswer Ask(GridGraph& graph, FrontEnd& front_end, bool bounds, int paths,
                      int threads = 1) {
+    return Ask(graph, front_end, bounds, paths, Unlimited(threads));
+  }
+  StrategyAnswer Ask(GridGraph& graph, FrontEnd& front_end, bool bounds, int paths,
+                     const sy_control& control) {
     front_end.graph = &graph;
     front_end.flow_of.assign(graph.paths().flow, graph.paths().flow + graph.paths().num_arcs);
     graph.paths().context = &front_end;
@@ -70,7 +74,7 @@ class OwnRestrictions : public testing::Test {
     graph.paths().flags = bounds ? SY_PATHS_BOUND : 0;
     return RelaxAndRoundOn(*host_, graph.view(),
                            {"paths=" + std::to_string(paths), "trials=1000", "flow_tolerance=0"},
-                           Unlimited(threads));
+                           control);
   }
 
   std::unique_ptr<Host> host_ = HostWith({"clarabel"});
@@ -148,6 +152,34 @@ TEST_F(OwnRestrictions, OfAPathThatHasNoPointAreAskedForOnlyWhereThatProvesNothi
       }
     }
   }
+}
+
+TEST_F(OwnRestrictions, ThatAreCancelledAtAnyPointAreNoProofThatThereIsNoPath) {
+  struct Watch {
+    int calls = 0, last = 0;
+  };
+  int cancelled = 0;
+  for (int last = 0; last < 400; last += 7) {
+    GridGraph graph(3, 3, EdgeCost::kOneNorm, 7);
+    FrontEnd front_end;
+    front_end.extra = 0.01;
+    Watch watch{0, last};
+    sy_control control = Unlimited();
+    control.context = &watch;
+    control.cancelled = [](void* context) noexcept -> std::int32_t {
+      auto& w = *static_cast<Watch*>(context);
+      return ++w.calls > w.last ? 1 : 0;
+    };
+    const StrategyAnswer answer = Ask(graph, front_end, true, 5, control);
+    ASSERT_EQ(answer.status, SY_OK) << answer.error;
+    const bool ended = watch.calls <= last;
+    cancelled += ended ? 0 : 1;
+    EXPECT_EQ(answer.result.termination, ended ? SY_LOCALLY_OPTIMAL : SY_CANCELLED) << answer.text;
+    if (!front_end.asked.empty()) {
+      EXPECT_EQ(answer.result.objective, front_end.best);
+    }
+  }
+  EXPECT_GT(cancelled, 3);
 }
 
 }  // namespace
