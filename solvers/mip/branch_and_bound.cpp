@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "solvers/mip/run.hpp"
+#include "solvers/mip/strengthening.hpp"
 #include "solvers/rounding/general.hpp"
 #include "switchyard/plugin.hpp"
 
@@ -62,9 +63,17 @@ void BranchAndBound::Solve(const sy_control& control, sy_result& result) {
     options.solver = options_.solver;
     return rounding::SolveGeneral(*whole_, options, host_, control, result);
   }
-  Run run(*whole_, paths_ ? &*paths_ : nullptr, options_, host_, control, start_);
+  rounding::Budget budget(control);
+  std::optional<Strengthened> strong;
+  if (options_.strengthening != 0 && !paths_) strong = Strengthen(*whole_, options_, host_, budget);
+  std::optional<rounding::IntegerProblem> other;
+  if (strong) other.emplace(strong->problem.view());
+  sy_control rest = control;
+  rest.seconds = std::max(0.0, control.seconds - budget.Seconds());
+  Run run(other ? *other : *whole_, paths_ ? &*paths_ : nullptr, options_, host_, rest, start_);
   run.Solve();
   run.Write(result);
+  result.seconds = budget.Seconds();
   pool_ = run.Pool();
   if (!pool_.empty()) pool_.erase(pool_.begin());  // the answer
 }

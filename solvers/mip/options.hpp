@@ -21,6 +21,7 @@ struct Options {
   int reliability = 4;    // children solved in a direction until its pseudocost is believed
   int candidates = 8;     // variables whose children are solved at a node, at most
   int probing = 1;        // 1: binaries are probed at the root
+  int strengthening = 1;  // 1: perspectives and integer cuts, before all else
   int pool = 10;          // solutions kept
   int deterministic = 0;  // 1: the same tree for any number of threads
 

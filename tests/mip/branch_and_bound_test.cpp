@@ -112,6 +112,71 @@ TEST(BranchAndBound, BothEnginesAndAllNumbersOfThreadsAgree) {
   }
 }
 
+/// min sum c_i k_i + d_i / k_i over n integers k_i with sum w_i k_i <= b, 1 / k_i by cones
+/// 2 k_i t_i >= 1; with binaries z_i that switch y_i <= z_i on, and their squares below s_i.
+Problem Allocation(int n, unsigned seed) {
+  std::mt19937_64 engine(seed);
+  std::uniform_real_distribution<double> uniform(0.5, 1.5);
+  ProblemData d;
+  const int all = 5 * n;  // k, t, z, y, s
+  d.num_vars = all;
+  d.flags = SY_PROBLEM_CONVEX;
+  d.P = Csc(all, all);
+  d.A = Csc(n + 2, all);
+  d.F = Csc(6 * n, all);
+  const auto put = [](Csc& m, int row, double value) {
+    m.row.push_back(row);
+    m.value.push_back(value);
+  };
+  for (int j = 0; j < all; ++j) {
+    const int kind = j / n, i = j % n;
+    const double cost[] = {uniform(engine), 30 * uniform(engine), 0.3 * uniform(engine),
+                           -1.5 * uniform(engine), 1};
+    d.q.push_back(cost[kind]);
+    d.x_lower.push_back(0);
+    d.x_upper.push_back(kind == 0 ? 20 : kind == 2 || kind == 3 ? 1 : kInfinity);
+    d.integer.push_back(kind == 0 || kind == 2 ? 1 : 0);
+    if (kind == 0) put(d.A, 0, uniform(engine));
+    if (kind == 2) put(d.A, 1, uniform(engine));
+    if (kind == 2) put(d.A, 2 + i, -1);
+    if (kind == 3) put(d.A, 2 + i, 1);
+    const int row[] = {3 * i, 3 * i + 1, -1, 3 * n + 3 * i + 2, 3 * n + 3 * i};
+    if (row[kind] >= 0) put(d.F, row[kind], 1);
+    d.A.start[static_cast<std::size_t>(j) + 1] = static_cast<std::int32_t>(d.A.row.size());
+    d.F.start[static_cast<std::size_t>(j) + 1] = static_cast<std::int32_t>(d.F.row.size());
+  }
+  d.row_lower.assign(static_cast<std::size_t>(n) + 2, -kInfinity);
+  d.row_upper.assign(static_cast<std::size_t>(n) + 2, 0.0);
+  d.row_upper[0] = 2.6 * n;
+  d.row_upper[1] = 0.5 * n;
+  for (int i = 0; i < n; ++i) {
+    d.g.insert(d.g.begin() + 3 * i, {0, 0, 1});
+    d.g.insert(d.g.end(), {0, 0.5, 0});
+  }
+  d.cones.assign(2 * static_cast<std::size_t>(n), {SY_CONE_ROTATED, 3, 0});
+  return Problem(std::move(d));
+}
+
+TEST(BranchAndBound, TightensConesOfIntegersAndSwitchedOnes) {
+  SKIP_WITHOUT(kBackend);
+  std::int64_t with = 0, without = 0;
+  for (unsigned seed = 1; seed <= 3; ++seed) {
+    const Problem problem = Allocation(8, seed);
+    sy_control control = Unlimited(1);
+    control.relative_gap = 1e-6;
+    const BackendAnswer tight = Answer(problem, control);
+    const BackendAnswer plain = Answer(problem, control, {"strengthening=0"});
+    ASSERT_EQ(tight.result.termination, SY_OPTIMAL) << tight.text;
+    ASSERT_EQ(plain.result.termination, SY_OPTIMAL) << plain.text;
+    EXPECT_NEAR(tight.result.objective, plain.result.objective,
+                2e-6 * std::abs(plain.result.objective));
+    EXPECT_LE(tight.result.bound, plain.result.objective);
+    with += tight.result.nodes;
+    without += plain.result.nodes;
+  }
+  EXPECT_LT(4 * with, without);
+}
+
 TEST(BranchAndBound, StopsAtNodesWithABound) {
   SKIP_WITHOUT(kBackend);
   const Problem problem = Portfolio(18, 4, 1);
