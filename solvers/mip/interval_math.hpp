@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "switchyard/cone_intervals.hpp"
+#include "switchyard/cones.hpp"
 #include "switchyard/problem.hpp"
 
 namespace switchyard::mip {
