@@ -7,18 +7,22 @@
 #include <vector>
 
 #include "solvers/mip/integer_cuts.hpp"
+#include "solvers/mip/mir_cuts.hpp"
 #include "solvers/mip/perspectives.hpp"
 #include "solvers/mip/propagation.hpp"
 #include "solvers/rounding/backend.hpp"
+#include "solvers/rounding/diving.hpp"
 #include "solvers/rounding/verdict.hpp"
 
 namespace switchyard::mip {
 namespace {
 
-constexpr double kViolated = 1e-5;  // relative: a row that is asked for
-constexpr double kSlack = 1e-4;     // relative: a row that is kept at the end
-constexpr double kProgress = 0.05;  // of what all rounds gained, in a round that was worth it
-constexpr double kNothing = 1e-6;   // of the objective: no gain
+constexpr double kViolated = 1e-5;   // relative: a row that is asked for
+constexpr double kFarEnough = 1e-4;  // likewise, of a row's length
+constexpr double kSlack = 1e-6;      // relative: a row that is kept
+constexpr double kProgress = 0.05;   // of what all rounds gained, in a round that was worth it
+constexpr double kShare = 0.1;       // of the gap, that rows must close
+constexpr double kNothing = 1e-6;    // of the objective: no gain
 
 std::vector<sy_hint> HintsOfVariables(const sy_problem& problem) {
   std::vector<sy_hint> hints;
@@ -46,26 +50,41 @@ void Append(const std::vector<Row>& rows, Problem& problem) {
 
 class Rounds {
  public:
-  Rounds(const Problem& problem, const IntegerCuts& cuts, const Options& options,
+  Rounds(const Problem& problem, const NodeBoxes& boxes, const Options& options,
          const sy_host& host, rounding::Budget& budget)
-      : problem_(problem), cuts_(cuts), options_(options), host_(host), budget_(budget) {}
+      : problem_(problem),
+        cuts_(problem.view(), boxes),
+        mir_(problem.view(), boxes),
+        options_(options),
+        host_(host),
+        budget_(budget) {}
 
-  /// Rows that are nearly tight at the end.
-  std::vector<Row> Run() {
-    double first = 0, before = 0;
+  /// Is there nothing that a row could be made of?
+  [[nodiscard]] bool empty() const { return cuts_.empty() && mir_.empty(); }
+
+  /// Rows that are tight at the end, where they close a share of the gap; else none.
+  std::vector<Row> Run(const rounding::IntegerProblem& whole) {
+    double gained = 0;
     for (int round = 0; round < options_.cut_rounds && !budget_.Stopped(); ++round) {
       if (!Solve()) break;
       const double objective = Objective(problem_.view(), x_.data());
-      if (round == 0) first = before = objective;
-      const double worth = kProgress * (objective - first) + kNothing * std::abs(objective);
-      if (round > 0 && objective - before <= worth) break;
-      before = objective;
+      if (round == 0) {
+        first_ = objective;
+        first_x_ = x_;
+      }
+      const double before = std::exchange(gained, objective - first_);
+      const double worth = kProgress * gained + kNothing * std::abs(objective);
+      if (round > 0 && gained - before <= worth) break;
       std::vector<Row> more;
       cuts_.Separate(x_, kViolated, more);
+      for (const Row& row : more) mir_.Know(row);
+      mir_.Separate(x_, kFarEnough, more);
       if (more.empty()) break;
+      KeepTight();
       rows_.insert(rows_.end(), more.begin(), more.end());
     }
-    std::erase_if(rows_, [&](const Row& row) { return x_.empty() || !IsTight(row); });
+    KeepTight();
+    if (!rows_.empty() && !PaysOff(whole, gained)) rows_.clear();
     return std::move(rows_);
   }
 
@@ -84,6 +103,22 @@ class Rounds {
     x_ = std::move(answer.x);
     return true;
   }
+  // Rows make every node dearer. The gap is the one to a rounded point; where there is none, it is
+  // not known to be small.
+  bool PaysOff(const rounding::IntegerProblem& whole, double gained) {
+    rounding::Domain domain(whole);
+    if (!domain.Propagate()) return false;
+    sy_problem relaxation = whole.problem();
+    relaxation.integer = nullptr;
+    relaxation.x_lower = domain.boxes().lower.data();
+    relaxation.x_upper = domain.boxes().upper.data();
+    const rounding::Root root{whole, relaxation, domain, first_x_, *solver_, host_};
+    const rounding::Try found = rounding::RoundToNearest(root, budget_);
+    return found.feasible && gained >= kShare * (found.objective - first_);
+  }
+  void KeepTight() {
+    std::erase_if(rows_, [&](const Row& row) { return x_.empty() || !IsTight(row); });
+  }
   [[nodiscard]] bool IsTight(const Row& row) const {
     double sum = 0, scale = 1;
     for (const rounding::Entry& e : row.entries) {
@@ -95,12 +130,15 @@ class Rounds {
   }
 
   const Problem& problem_;
-  const IntegerCuts& cuts_;
+  IntegerCuts cuts_;
+  MirCuts mir_;
   const Options& options_;
   const sy_host& host_;
   rounding::Budget& budget_;
   const sy_solver* solver_ = nullptr;
   std::vector<double> x_;  // of the last relaxation
+  std::vector<double> first_x_;
+  double first_ = 0;  // its objective
   std::vector<Row> rows_;
 };
 
@@ -116,9 +154,9 @@ std::optional<Strengthened> Strengthen(const rounding::IntegerProblem& whole,
   Strengthened result{Problem(whole.problem()), HintsOfVariables(whole.problem())};
   result.problem.Change([&](ProblemData& d) { d.hints = result.hints.data(); });
   result.perspectives = TakePerspectives(result.problem, boxes);
-  const IntegerCuts cuts(result.problem.view(), boxes);
-  if (!cuts.empty() && options.cut_rounds > 0) {
-    const std::vector<Row> rows = Rounds(result.problem, cuts, options, host, budget).Run();
+  Rounds rounds(result.problem, boxes, options, host, budget);
+  if (!rounds.empty() && options.cut_rounds > 0) {
+    const std::vector<Row> rows = rounds.Run(whole);
     result.cuts = static_cast<std::int32_t>(rows.size());
     if (!rows.empty()) Append(rows, result.problem);
   }
