@@ -37,7 +37,7 @@ constexpr std::array kIntegers = {
             "Variables whose children are solved at a node, at most", 1e4},
     Integer{&Options::probing, "probing", "1: binaries are probed at the root", 1},
     Integer{&Options::strengthening, "strengthening",
-            "1: cones with binaries and integers are tightened before the root", 1},
+            "1: perspectives and rows for integers tighten the problem before the root", 1},
     Integer{&Options::pool, "pool", "Solutions kept, the best first", 1e4},
     Integer{&Options::deterministic, "deterministic",
             "1: the same tree however many threads there are", 1}};

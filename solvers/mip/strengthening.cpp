@@ -20,8 +20,10 @@ namespace {
 constexpr double kViolated = 1e-5;   // relative: a row that is asked for
 constexpr double kFarEnough = 1e-4;  // likewise, of a row's length
 constexpr double kSlack = 1e-6;      // relative: a row that is kept
-constexpr double kProgress = 0.05;   // of what all rounds gained, in a round that was worth it
+constexpr double kProgress = 0.015;  // of what all rounds gained, in a round that was worth it
 constexpr double kShare = 0.1;       // of the gap, that rows must close
+constexpr double kLittle = 1e-5;     // of the objective: no gain worth a row
+constexpr double kTime = 0.1;        // of what there is
 constexpr double kNothing = 1e-6;    // of the objective: no gain
 
 std::vector<sy_hint> HintsOfVariables(const sy_problem& problem) {
@@ -65,7 +67,7 @@ class Rounds {
   /// Rows that are tight at the end, where they close a share of the gap; else none.
   std::vector<Row> Run(const rounding::IntegerProblem& whole) {
     double gained = 0;
-    for (int round = 0; round < options_.cut_rounds && !budget_.Stopped(); ++round) {
+    for (int round = 0; round < options_.cut_rounds && !IsLate(); ++round) {
       if (!Solve()) break;
       const double objective = Objective(problem_.view(), x_.data());
       if (round == 0) {
@@ -84,7 +86,8 @@ class Rounds {
       rows_.insert(rows_.end(), more.begin(), more.end());
     }
     KeepTight();
-    if (!rows_.empty() && !PaysOff(whole, gained)) rows_.clear();
+    const bool little = gained <= kLittle * std::abs(first_);
+    if (little || (!rows_.empty() && !PaysOff(whole, gained))) rows_.clear();
     return std::move(rows_);
   }
 
@@ -102,6 +105,10 @@ class Rounds {
     if (!rounding::IsPoint(answer.primal)) return false;
     x_ = std::move(answer.x);
     return true;
+  }
+  [[nodiscard]] bool IsLate() {
+    const bool late = budget_.Seconds() > kTime * budget_.control().seconds;
+    return budget_.Stopped() || (late && options_.deterministic == 0);
   }
   // Rows make every node dearer. The gap is the one to a rounded point; where there is none, it is
   // not known to be small.

@@ -20,9 +20,9 @@ struct Strengthened {
   std::int32_t perspectives = 0, cuts = 0;
 };
 
-/// The problem with perspectives (perspectives.hpp), then with rows (integer_cuts.hpp) that its
-/// relaxation violates, until it violates few. Nothing where there are neither. What is proven of
-/// it is proven of the whole.
+/// The problem with perspectives (perspectives.hpp), then with rows (integer_cuts.hpp,
+/// mir_cuts.hpp) that its relaxation violates, in rounds. Nothing where there are neither. What is
+/// proven of it is proven of the whole.
 std::optional<Strengthened> Strengthen(const rounding::IntegerProblem& whole,
                                        const Options& options, const sy_host& host,
                                        rounding::Budget& budget);
