@@ -157,24 +157,74 @@ Problem Allocation(int n, unsigned seed) {
   return Problem(std::move(d));
 }
 
-TEST(BranchAndBound, TightensConesOfIntegersAndSwitchedOnes) {
-  SKIP_WITHOUT(kBackend);
+/// max c'z over n binaries with w_k'z + 2 t_k <= b_k and |(a_ki z_i)| <= t_k for m knapsacks whose
+/// weights are uncertain, most of them 0.
+Problem UncertainKnapsacks(int n, int m, unsigned seed) {
+  std::mt19937_64 engine(seed);
+  std::uniform_int_distribution<int> whole(5, 40);
+  ProblemData d;
+  const int all = n + m, dim = n + 1;
+  d.num_vars = all;
+  d.flags = SY_PROBLEM_CONVEX;
+  d.P = Csc(all, all);
+  d.A = Csc(m, all);
+  d.F = Csc(m * dim, all);
+  d.row_lower.assign(static_cast<std::size_t>(m), -kInfinity);
+  d.row_upper.assign(static_cast<std::size_t>(m), 0.0);
+  const auto put = [](Csc& a, int row, double value) {
+    a.row.push_back(row);
+    a.value.push_back(value);
+  };
+  for (int j = 0; j < all; ++j) {
+    const bool binary = j < n;
+    d.q.push_back(binary ? -whole(engine) : 0);
+    d.x_lower.push_back(0);
+    d.x_upper.push_back(binary ? 1 : kInfinity);
+    d.integer.push_back(binary ? 1 : 0);
+    for (int k = 0; k < m; ++k) {
+      const bool absent = binary ? whole(engine) > 15 : k != j - n;
+      if (absent) continue;
+      const double weight = binary ? whole(engine) : 2;
+      put(d.A, k, weight);
+      put(d.F, k * dim + (binary ? 1 + j : 0), binary ? 0.3 * whole(engine) : 1);
+      if (binary) d.row_upper[static_cast<std::size_t>(k)] += 0.5 * weight;
+    }
+    d.A.start[static_cast<std::size_t>(j) + 1] = static_cast<std::int32_t>(d.A.row.size());
+    d.F.start[static_cast<std::size_t>(j) + 1] = static_cast<std::int32_t>(d.F.row.size());
+  }
+  d.g.assign(static_cast<std::size_t>(m * dim), 0.0);
+  d.cones.assign(static_cast<std::size_t>(m), {SY_CONE_SECOND_ORDER, dim, 0});
+  return Problem(std::move(d));
+}
+
+void ExpectAFractionOfTheNodes(const std::vector<Problem>& problems, std::int64_t fraction) {
   std::int64_t with = 0, without = 0;
-  for (unsigned seed = 1; seed <= 3; ++seed) {
-    const Problem problem = Allocation(8, seed);
+  for (const Problem& problem : problems) {
     sy_control control = Unlimited(1);
     control.relative_gap = 1e-6;
     const BackendAnswer tight = Answer(problem, control);
     const BackendAnswer plain = Answer(problem, control, {"strengthening=0"});
     ASSERT_EQ(tight.result.termination, SY_OPTIMAL) << tight.text;
     ASSERT_EQ(plain.result.termination, SY_OPTIMAL) << plain.text;
-    EXPECT_NEAR(tight.result.objective, plain.result.objective,
-                2e-6 * std::abs(plain.result.objective));
-    EXPECT_LE(tight.result.bound, plain.result.objective);
+    const double slack = 2e-6 * std::abs(plain.result.objective);
+    EXPECT_NEAR(tight.result.objective, plain.result.objective, slack);
+    EXPECT_LE(tight.result.bound, plain.result.objective + slack);
     with += tight.result.nodes;
     without += plain.result.nodes;
   }
-  EXPECT_LT(4 * with, without);
+  EXPECT_LT(fraction * with, without);
+}
+
+TEST(BranchAndBound, TightensConesOfIntegersAndSwitchedOnes) {
+  SKIP_WITHOUT(kBackend);
+  ExpectAFractionOfTheNodes({Allocation(8, 1), Allocation(8, 2), Allocation(8, 3)}, 4);
+}
+
+TEST(BranchAndBound, RoundsRowsOfBinariesBelowARoot) {
+  SKIP_WITHOUT(kBackend);
+  std::vector<Problem> problems;
+  for (unsigned seed = 1; seed <= 3; ++seed) problems.push_back(UncertainKnapsacks(30, 8, seed));
+  ExpectAFractionOfTheNodes(problems, 2);
 }
 
 TEST(BranchAndBound, StopsAtNodesWithABound) {
