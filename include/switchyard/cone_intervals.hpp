@@ -58,6 +58,11 @@ inline void NarrowSecondOrder(Interval* s, int dim, double) {
   for (int i = 1; i < dim; ++i) WithinRadius(s[i], std::max(0.0, s[0].upper));
 }
 
+/// At least sqrt 2 times a mean; 0 for 0, so that what a head of 0 leaves is fixed.
+inline double TimesRootTwo(double mean) {
+  return mean == 0 ? 0 : RoundUp(RoundUp(std::sqrt(2.0)) * mean);
+}
+
 /// |w_i|^2 <= |w|^2 <= 2 s_0 s_1.
 inline void NarrowRotated(Interval* s, int dim, double) {
   RaiseLower(s[0], 0);
@@ -65,8 +70,8 @@ inline void NarrowRotated(Interval* s, int dim, double) {
   const double square = LeastSquare(s + 2, dim - 2);
   if (s[1].upper > 0) RaiseLower(s[0], RoundDown(square / (2 * s[1].upper)));
   if (s[0].upper > 0) RaiseLower(s[1], RoundDown(square / (2 * s[0].upper)));
-  const double radius = RoundUp(std::sqrt(2.0)) * LargestMean(s[0], 0.5, s[1], 0.5);
-  for (int i = 2; i < dim; ++i) WithinRadius(s[i], RoundUp(radius));
+  const double radius = TimesRootTwo(LargestMean(s[0], 0.5, s[1], 0.5));
+  for (int i = 2; i < dim; ++i) WithinRadius(s[i], radius);
 }
 
 /// The minors of order 2: S_ij^2 <= S_ii S_jj; an off-diagonal entry is sqrt 2 S_ij.
@@ -75,19 +80,21 @@ inline void NarrowSemidefinite(Interval* s, int dim, double) {
   for (int j = 0; j * (j + 1) / 2 < dim; ++j) {
     RaiseLower(diagonal(j), 0);
     for (int i = 0; i < j; ++i) {
-      const double radius = LargestMean(diagonal(i), 0.5, diagonal(j), 0.5);
-      WithinRadius(s[j * (j + 1) / 2 + i], RoundUp(std::sqrt(2.0) * radius));
+      const double radius = TimesRootTwo(LargestMean(diagonal(i), 0.5, diagonal(j), 0.5));
+      WithinRadius(s[j * (j + 1) / 2 + i], radius);
     }
   }
 }
 
 /// s_1 log(s_2/s_1) is concave in s_1 with its top at s_2/e; s_1 exp(s_0/s_1) is convex in s_1
 /// with its bottom at s_0 > 0 and rises where s_0 <= 0; and s_0 + s_1 <= s_2, since 1 + t <= exp t.
+/// s_1 = 0 leaves s_0 <= 0, whatever s_2 is; s_2 = 0 leaves s_1 = 0.
 inline void NarrowExponential(Interval* s, int, double) {
   RaiseLower(s[1], 0);
   RaiseLower(s[2], 0);
-  CutUpper(s[1], RoundUp(s[2].upper - s[0].lower));
+  CutUpper(s[1], s[2].upper <= 0 ? 0 : RoundUp(s[2].upper - s[0].lower));
   if (s[1].lower > s[1].upper) return;
+  if (s[1].upper == 0) return CutUpper(s[0], 0);
   if (std::isfinite(s[2].upper)) {
     const double top = std::clamp(s[2].upper * std::exp(-1.0), s[1].lower, s[1].upper);
     const double height = top > 0 ? top * std::log(s[2].upper / top) : 0.0;

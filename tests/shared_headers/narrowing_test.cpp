@@ -92,5 +92,30 @@ TEST(Narrowing, BoundsThePowerByTheMean) {
   EXPECT_NEAR(s[2].lower, -2, 1e-12);
 }
 
+// Exactly, and whatever the other head may be.
+TEST(Narrowing, LeavesOfAConeWhoseHeadIsZeroItsFace) {
+  std::vector<Interval> s = {kAll, {-1, 0}, kAll};
+  Narrow({SY_CONE_EXPONENTIAL, 3, 0}, s);
+  EXPECT_EQ(s[0].upper, 0);
+  EXPECT_EQ(s[0].lower, -kInfinity);
+  EXPECT_EQ(s[2].upper, kInfinity);
+  s = {{-4, 4}, kAll, {0, 0}};
+  Narrow({SY_CONE_EXPONENTIAL, 3, 0}, s);
+  EXPECT_EQ(s[1].upper, 0);
+  EXPECT_EQ(s[0].upper, 0);
+  EXPECT_EQ(s[0].lower, -4);
+  for (const sy_cone& cone : {sy_cone{SY_CONE_ROTATED, 3, 0}, sy_cone{SY_CONE_POWER, 3, 0.3}}) {
+    s = {kAll, {0, 0}, kAll};
+    Narrow(cone, s);
+    EXPECT_EQ(s[2].lower, 0);
+    EXPECT_EQ(s[2].upper, 0);
+    EXPECT_EQ(s[0].upper, kInfinity);
+  }
+  s = {{0, 0}, kAll, kAll};
+  Narrow({SY_CONE_PSD, 3, 0}, s);
+  EXPECT_EQ(s[1].lower, 0);
+  EXPECT_EQ(s[1].upper, 0);
+}
+
 }  // namespace
 }  // namespace switchyard::testing
