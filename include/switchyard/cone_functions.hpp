@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "switchyard/smallest_eigenvalue.hpp"
+#include <numeric>
 
 namespace switchyard::cones_detail {
 
@@ -143,11 +144,39 @@ inline double SemidefiniteViolation(const double* s, int dim, double) {
   return Positive(-SmallestOf(s, dim).value);
 }
 
+/// Of each row of smat(s), a number that rows share which nonzero entries connect: its blocks.
+inline std::vector<int> BlocksOf(const double* s, int dim) {
+  std::vector<int> block(static_cast<std::size_t>(std::max(0, OrderOf(dim))));
+  std::iota(block.begin(), block.end(), 0);
+  for (std::size_t j = 0; j < block.size(); ++j, ++s) {
+    for (std::size_t i = 0; i < j; ++i) {
+      const int from = block[j], to = block[i];
+      if (*s++ != 0 && from != to) std::replace(block.begin(), block.end(), from, to);
+    }
+  }
+  return block;
+}
+
+/// The diagonal of each block is raised by what it lacks: a row of zeros lacks nothing.
 inline void SemidefiniteIntoDual(double* y, int dim, double) {
-  const SmallestEigenvalue smallest = SmallestOf(y, dim);
-  const double shift = Positive(smallest.rounding - smallest.value);
-  int at = 0;  // of the diagonal's entry in column j
-  for (int j = 0; j < OrderOf(dim); ++j, at += j + 1) y[at] += shift;
+  const std::vector<int> block = BlocksOf(y, dim);
+  std::vector<double> part;
+  const auto order = static_cast<int>(block.size());
+  const auto in = [&](int j, int b) { return block[static_cast<std::size_t>(j)] == b; };
+  for (int b = 0; b < order; ++b) {
+    part.clear();
+    for (int j = 0; j < order; ++j) {
+      for (int i = 0; i <= j && in(j, b); ++i) {
+        if (in(i, b)) part.push_back(y[j * (j + 1) / 2 + i]);
+      }
+    }
+    if (part.empty()) continue;
+    const SmallestEigenvalue smallest = SmallestOf(part.data(), static_cast<int>(part.size()));
+    const double shift = Positive(smallest.rounding - smallest.value);
+    for (int j = 0; j < order; ++j) {
+      if (in(j, b)) y[j * (j + 1) / 2 + j] += shift;
+    }
+  }
 }
 
 // ---- exponential: the closure of s_1 exp(s_0/s_1) <= s_2, s_1 > 0 -----------------------------

@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <span>
 
-#include "switchyard/cones.hpp"
+#include "solvers/rounding/kept_entry.hpp"
 #include "switchyard/problem.hpp"
 
 namespace switchyard::rounding {
 namespace {
 
-constexpr double kJustInside = 1 - 0x1p-48;  // of a norm, over the rounding of its evaluation
+std::size_t At(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 struct Entry {
   double value;  // of the matrix
@@ -25,73 +24,42 @@ class Exactness {
     std::int32_t row = 0;
     for (std::int32_t c = 0; c < p_.num_cones; ++c) {
       begin_.push_back(row);
-      cone_.insert(cone_.end(), static_cast<std::size_t>(p_.cones[c].dim), c);
+      cone_.insert(cone_.end(), At(p_.cones[c].dim), c);
       row += p_.cones[c].dim;
     }
   }
 
-  void Column(std::int32_t j) {
+  /// In [lower, upper], of which an end is infinite.
+  void Column(std::int32_t j, double lower, double upper) {
     const double q = p_.q != nullptr ? p_.q[j] : 0;
-    const std::int32_t in_rows = Count(p_.A, j), in_cones = Count(p_.F, j);
     if (Count(p_.P, j) > 0) return;
-    if (in_rows == 0 && in_cones == 1 && Head(p_.F->row[p_.F->start[j]], q, FirstOf(p_.F, j))) {
-      return;
+    if (Count(p_.A, j) == 0 && Count(p_.F, j) == 1) {
+      Alone(p_.F->row[p_.F->start[j]], q, p_.F->value[p_.F->start[j]], lower, upper);
+    } else {
+      Share(j, q);
     }
-    Share(j, q);
   }
 
  private:
   static std::int32_t Count(const sy_csc* m, std::int32_t j) {
     return m != nullptr ? m->start[j + 1] - m->start[j] : 0;
   }
-  static double FirstOf(const sy_csc* m, std::int32_t j) { return m->value[m->start[j]]; }
 
-  /// Was `row` a head of its cone, and the column dealt with?
-  bool Head(std::int32_t row, double q, double f) {
-    const std::int32_t c = cone_[static_cast<std::size_t>(row)];
+  /// The column's one entry f is in `row`. What is no head is let be where an end bears it.
+  void Alone(std::int32_t row, double q, double f, double lower, double upper) {
+    const std::int32_t c = cone_[At(row)], begin = begin_[At(c)];
     const sy_cone& cone = p_.cones[c];
-    const std::int32_t place = row - begin_[static_cast<std::size_t>(c)];
-    const bool second_order = cone.kind == SY_CONE_SECOND_ORDER && place == 0;
-    const bool rotated = cone.kind == SY_CONE_ROTATED && place <= 1;
-    if (!second_order && !rotated) return false;
-    const double head = q / f;
-    if (!(head >= 0) || !std::isfinite(head) || std::fma(head, f, -q) != 0) return true;
-    double* y = duals_.cone.data() + (row - place);
-    const std::span<double> tail(y + (second_order ? 1 : 2), y + cone.dim);
-    y[place] = head;
-    if (second_order) {
-      Shorten(tail, head);
-    } else {
-      RaiseOther(y[1 - place], head, tail);
+    const auto is_borne = [&](double rho) {
+      return rho == 0 || (rho > 0 ? lower > -kInfinity : upper < kInfinity);
+    };
+    const auto rho_of = [&](double dual) { return std::fma(-dual, f, q); };
+    if (!IsHead(cone, row - begin) && is_borne(rho_of(duals_.cone[At(row)]))) return;
+    double kept = q / f;
+    if (!is_borne(rho_of(kept))) {
+      kept = std::nextafter(kept, (rho_of(kept) > 0) == (f > 0) ? kInfinity : -kInfinity);
     }
-    return true;
-  }
-
-  /// |tail| <= head.
-  static void Shorten(std::span<double> tail, double head) {
-    const double norm = Norm(tail);
-    if (norm <= head * kJustInside) return;
-    const double factor = head * kJustInside / norm;
-    for (double& v : tail) v *= factor;
-    if (!(factor > 0) || !(Norm(tail) <= head)) std::fill(tail.begin(), tail.end(), 0.0);
-  }
-
-  /// 2 head other >= |tail|^2.
-  static void RaiseOther(double& other, double head, std::span<double> tail) {
-    const double norm = Norm(tail);
-    const double needed = norm == 0 ? 0 : norm * norm / (2 * head) / kJustInside;
-    if (std::isfinite(needed)) {
-      other = std::max({other, needed, 0.0});
-    } else {
-      std::fill(tail.begin(), tail.end(), 0.0);
-      other = std::max(other, 0.0);
-    }
-  }
-
-  static double Norm(std::span<const double> v) {
-    long double square = 0;
-    for (const double e : v) square += static_cast<long double>(e) * e;
-    return static_cast<double>(std::sqrt(square));
+    if (!std::isfinite(kept) || !is_borne(rho_of(kept))) return;
+    KeepEntry(cone, row - begin, kept, duals_.cone.data() + begin);
   }
 
   void Share(std::int32_t j, double q) {
@@ -140,13 +108,13 @@ class Exactness {
       const bool below = p_.row_lower != nullptr && p_.row_lower[i] > -kInfinity;
       const bool above = p_.row_upper != nullptr && p_.row_upper[i] < kInfinity;
       const double sign = below == above ? 0 : (below ? 1 : -1);
-      entries_.push_back({p_.A->value[at], sign, &duals_.row[static_cast<std::size_t>(i)]});
+      entries_.push_back({p_.A->value[at], sign, &duals_.row[At(i)]});
     }
     for (std::int32_t k = 0; k < Count(p_.F, j); ++k) {
       const std::int32_t at = p_.F->start[j] + k, i = p_.F->row[at];
-      const sy_cone& cone = p_.cones[cone_[static_cast<std::size_t>(i)]];
+      const sy_cone& cone = p_.cones[cone_[At(i)]];
       const double sign = cone.kind == SY_CONE_NONNEGATIVE ? 1 : 0;
-      entries_.push_back({p_.F->value[at], sign, &duals_.cone[static_cast<std::size_t>(i)]});
+      entries_.push_back({p_.F->value[at], sign, &duals_.cone[At(i)]});
     }
   }
 
@@ -165,9 +133,9 @@ void MakeExact(const sy_problem& problem, const double* lower, const double* upp
   }
   Exactness exactness(problem, duals);
   for (std::int32_t j = 0; j < problem.num_vars; ++j) {
-    const bool boxed =
-        lower != nullptr && upper != nullptr && std::isfinite(lower[j]) && std::isfinite(upper[j]);
-    if (!boxed) exactness.Column(j);
+    const double l = lower != nullptr ? lower[j] : -kInfinity;
+    const double u = upper != nullptr ? upper[j] : kInfinity;
+    if (!std::isfinite(l) || !std::isfinite(u)) exactness.Column(j, l, u);
   }
 }
 

@@ -16,16 +16,16 @@ struct Duals {
 /// Changes `duals` of `problem` so that q_j = A_j'y + F_j'z holds exactly for each column j that
 /// has no box on both sides, no P, and is of one of two shapes:
 ///
-///   a head    its one entry f is in row 0 of a second-order cone, or row 0 or 1 of a rotated one:
-///             the dual there becomes q_j / f, the tail (or the other head) what membership needs
-///   a share   all entries a are +-2^k, in one-sided rows or nonnegative cones, and a y has the
-///   sign
-///             of q_j where y has the sign of its side (the rows of a 1-norm, two to a column; of
-///             an infinity-norm, many): the a y become whole multiples of q_j's last place that add
-///             up to q_j, in the proportions they have
+///   alone     its one entry f is in a cone: the dual there becomes q_j / f, and others of the cone
+///             what membership needs (see KeepEntry). Where q_j / f is no double, it is the next
+///             one that leaves a residual of the sign which a finite end bears
+///   a share   all entries a are +-2^k, in one-sided rows or nonnegative cones, and a y has q_j's
+///             sign where y has the sign of its side (the rows of a 1-norm, two to a column; of an
+///             infinity-norm, many): the a y become whole multiples of q_j's last place that add up
+///             to q_j, in the proportions they have
 ///
-/// Where q_j is not bearable (its sign is wrong, or q_j / f rounds), the column is left as it is.
-/// Any duals give a bound, so nothing is claimed of the others' residuals.
+/// Where q_j is not bearable (its sign is wrong, or q_j / f rounds and there is no finite end), the
+/// column is left as it is. Any duals give a bound, so nothing is claimed of the others' residuals.
 void MakeExact(const sy_problem& problem, const double* lower, const double* upper, Duals& duals);
 
 }  // namespace switchyard::rounding

@@ -212,6 +212,14 @@ TEST(IntoDual, IsDoneOnce) {
   }
 }
 
+// So that a dual that a free variable of the diagonal makes 0 stays 0.
+TEST(IntoDual, RaisesOfAMatrixOnlyTheBlockThatIsWrong) {
+  const Vector y = IntoDual({SY_CONE_PSD, 6, 0}, {3, 0, 0, 4, 0, 1});  // entries 0 and 2 connected
+  EXPECT_EQ(y[2], 0);
+  EXPECT_GT(y[0] * y[5], 8);
+  EXPECT_EQ(IntoDual({SY_CONE_PSD, 3, 0}, {0, 0, 2}), Vector({0, 0, 2}));
+}
+
 TEST(IntoDual, TakesWhatIsExtreme) {
   EXPECT_EQ(IntoDual({SY_CONE_EXPONENTIAL, 3, 0}, {-1e-9, -1, 2}), Vector({0, 0, 2}));
   EXPECT_EQ(IntoDual({SY_CONE_ROTATED, 3, 0}, {1, 0, 2}), Vector({1, 0, 0}));
