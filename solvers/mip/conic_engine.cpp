@@ -36,28 +36,28 @@ ConicEngine::ConicEngine(const sy_problem& problem, const sy_problem& relaxation
   loaded_.emplace(solver, host, relaxation_, SY_UPDATES_BOUNDS);
 }
 
-// The backend is given what was decided, of integers, and what that fixes; the proof uses all that
-// follows from it.
-void ConicEngine::SetBoxes(const NodeBoxes& boxes) {
+// The backend is given what was decided, of integers, and what that fixes, or all that follows from
+// it; the proof always uses all.
+void ConicEngine::SetBoxes(const NodeBoxes& boxes, bool all) {
   for (std::int32_t j = 0; j < problem_.num_vars; ++j) {
     const auto at = static_cast<std::size_t>(j);
-    const bool told = boxes.IsInteger(j) || boxes.IsFixed(j);
+    const bool told = all || boxes.IsInteger(j) || boxes.IsFixed(j);
     lower_[at] = told ? boxes.lower(j) : OpenEnd(relaxation_.x_lower, j, -kInfinity);
     upper_[at] = told ? boxes.upper(j) : OpenEnd(relaxation_.x_upper, j, kInfinity);
   }
   loaded_->SetBounds(lower_, upper_);
 }
 
-Relaxed ConicEngine::SolveFinely(const NodeBoxes& boxes, double cutoff) {
+Relaxed ConicEngine::SolveFinely(const NodeBoxes& boxes, double cutoff, bool in_all_boxes) {
   constexpr double kFine = 1e-11;
-  SetBoxes(boxes);
+  SetBoxes(boxes, in_all_boxes);
   sy_control control = budget_.Part(1);
   control.feasibility = control.optimality = kFine;
   return Judge(loaded_->Solve(control), boxes, cutoff);
 }
 
 Relaxed ConicEngine::Solve(const NodeBoxes& boxes, double cutoff, int /*rounds*/) {
-  SetBoxes(boxes);
+  SetBoxes(boxes, false);
   sy_control control = budget_.Part(1);
   control.cutoff = cutoff;
   Relaxed relaxed = Judge(loaded_->Solve(control), boxes, cutoff);

@@ -19,14 +19,15 @@ class ConicEngine : public Engine {
               const sy_host& host, rounding::Budget& budget);
 
   Relaxed Solve(const NodeBoxes& boxes, double cutoff, int rounds) override;
-  /// Likewise, as accurately as the backend can: for a last node, whose bound is all there is.
-  Relaxed SolveFinely(const NodeBoxes& boxes, double cutoff);
+  /// Likewise, as accurately as the backend can: for a last node, whose bound is all there is. The
+  /// backend is told the boxes of integers and what is fixed, or those of all variables.
+  Relaxed SolveFinely(const NodeBoxes& boxes, double cutoff, bool in_all_boxes);
   Relaxed Glance(const NodeBoxes& boxes, double cutoff) override { return Solve(boxes, cutoff, 0); }
   [[nodiscard]] std::string Name() const override { return solver_.id; }
   [[nodiscard]] sy_termination last_termination() const { return last_termination_; }
 
  private:
-  void SetBoxes(const NodeBoxes& boxes);
+  void SetBoxes(const NodeBoxes& boxes, bool all);
   Relaxed Judge(const rounding::Answer& answer, const NodeBoxes& boxes, double cutoff);
 
   sy_problem problem_;

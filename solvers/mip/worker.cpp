@@ -123,7 +123,7 @@ Worker::End Worker::Judge(Relaxed& relaxed) {
   if (auto split = SplitAnywhere(instance_.whole, boxes_, {})) {
     return Descend(std::move(*split)) ? End::kSplit : End::kClosed;
   }
-  GiveUp(bound_);
+  JudgeLeaf(relaxed);
   return End::kClosed;
 }
 
@@ -194,18 +194,7 @@ Worker::End Worker::JudgeIntegral(Relaxed& relaxed) {
   if (ledger_.cutoff() < cutoff_) return End::kAgain;
   if (IsFixed()) {
     if (rest.state == State::kTrouble) rest = RelaxOtherwise();
-    const bool nothing = rest.state == State::kEmpty || rest.state == State::kCutoff;
-    double proven = nothing ? cutoff_ : std::max(bound_, rest.bound.value);
-    if (proven < cutoff_ && fixed_) {
-      const Relaxed fine = fixed_->SolveFinely(boxes_, cutoff_);
-      const bool none = fine.state == State::kEmpty || fine.state == State::kCutoff;
-      proven = none ? cutoff_ : std::max(proven, fine.bound.value);
-    }
-    if (proven >= cutoff_) {
-      ledger_.Close(proven);
-    } else {
-      GiveUp(proven);
-    }
+    JudgeLeaf(rest);
     return End::kClosed;
   }
   if (instance_.outer_nodes) {
@@ -225,6 +214,35 @@ Worker::End Worker::JudgeIntegral(Relaxed& relaxed) {
   }
   auto split = SplitAnywhere(instance_.whole, boxes_, relaxed.x);
   return Descend(std::move(*split)) ? End::kSplit : End::kClosed;
+}
+
+// The last word on a node whose integers are fixed. What the backend does not tell as finely as it
+// can it may tell of the same problem in the boxes of all variables, which are other numbers to it.
+void Worker::JudgeLeaf(const Relaxed& rest) {
+  const auto proven_by = [&](const Relaxed& relaxed) {
+    const bool nothing = relaxed.state == State::kEmpty || relaxed.state == State::kCutoff;
+    return nothing ? cutoff_ : relaxed.bound.value;
+  };
+  double proven = std::max(bound_, proven_by(rest));
+  for (const bool in_all_boxes : {false, true}) {
+    if (proven >= ledger_.cutoff() || ledger_.Stopped()) break;
+    const Relaxed fine = Fixed().SolveFinely(boxes_, cutoff_, in_all_boxes);
+    if (fine.state == State::kPoint) TryPoint(fine.x);
+    proven = std::max(proven, proven_by(fine));
+  }
+  if (proven >= ledger_.cutoff()) {
+    ledger_.Close(proven);
+  } else {
+    GiveUp(proven);
+  }
+}
+
+ConicEngine& Worker::Fixed() {
+  if (!fixed_) {
+    fixed_.emplace(instance_.problem(), instance_.relaxation(), *instance_.conic, instance_.host,
+                   ledger_.budget());
+  }
+  return *fixed_;
 }
 
 void Worker::TryPoint(std::vector<double> x) {
@@ -248,11 +266,7 @@ Relaxed Worker::SolveFixed(const std::vector<double>& x) {
   rest.state = State::kEmpty;
   const bool is_new = x.empty() || solved_.insert(integers).second || IsFixed();
   if (is_new && instance_.propagator.Propagate(boxes_, workspace_, cutoff_)) {
-    if (!fixed_) {
-      fixed_.emplace(instance_.problem(), instance_.relaxation(), *instance_.conic, instance_.host,
-                     ledger_.budget());
-    }
-    rest = fixed_->Solve(boxes_, cutoff_, 0);
+    rest = Fixed().Solve(boxes_, cutoff_, 0);
     if (rest.state == State::kPoint && !x.empty()) TryPoint(rest.x);
   }
   boxes_.UndoTo(mark);

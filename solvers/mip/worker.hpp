@@ -39,9 +39,12 @@ class Worker {
   End Judge(Relaxed& relaxed);
   End JudgePoint(Relaxed& relaxed);
   End JudgeIntegral(Relaxed& relaxed);
+  void JudgeLeaf(const Relaxed& rest);
   void TryPoint(std::vector<double> x);
   /// Of the integers of a point: their best continuous rest.
   Relaxed SolveFixed(const std::vector<double>& x);
+  /// The engine of such rests.
+  ConicEngine& Fixed();
   void TryPaths(const std::vector<double>& x);
   void TryRounding(const std::vector<double>& x);
   void TryNear(const std::vector<double>& x);
