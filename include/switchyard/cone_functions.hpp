@@ -7,11 +7,11 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numeric>
 #include <utility>
 #include <vector>
 
 #include "switchyard/smallest_eigenvalue.hpp"
-#include <numeric>
 
 namespace switchyard::cones_detail {
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "solvers/mip/close_columns.hpp"
+#include "solvers/mip/project_columns.hpp"
 #include "switchyard/safe_bound.hpp"
 
 namespace switchyard::mip {
@@ -46,6 +47,11 @@ NodeBound BoundFrom(const sy_problem& problem, Duals duals, const std::vector<do
   rounding::MakeExact(problem, lower.data(), upper.data(), duals);
   NodeBound bound = BoundAt(problem, duals, lower, upper);
   if (!bound.slope.empty()) return bound;
+  Duals closed = duals;
+  CloseColumns(problem, lower, upper, closed);
+  bound = BoundAt(problem, closed, lower, upper);
+  if (!bound.slope.empty()) return bound;
+  ProjectColumns(problem, lower, upper, duals);
   CloseColumns(problem, lower, upper, duals);
   return BoundAt(problem, duals, lower, upper);
 }

@@ -20,7 +20,7 @@ struct NodeBound {
 };
 
 /// The bound of safe_bound.hpp over [lower, upper], for a linear objective, with the duals changed
-/// by MakeExact first.
+/// by MakeExact first, and where that leaves columns open by CloseColumns and ProjectColumns.
 NodeBound BoundFrom(const sy_problem& problem, rounding::Duals duals,
                     const std::vector<double>& lower, const std::vector<double>& upper);
 
