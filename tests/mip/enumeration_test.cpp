@@ -131,8 +131,11 @@ class AgainstEnumeration : public ::testing::TestWithParam<std::tuple<Contender,
     }
     ++tally_.solvable;
     EXPECT_LE(r.bound, optimum + slack);
-    ASSERT_EQ(r.termination, SY_OPTIMAL) << answer.text;
-    ASSERT_EQ(r.primal, SY_FEASIBLE);
+    if (r.termination != SY_OPTIMAL || r.primal != SY_FEASIBLE) {
+      ADD_FAILURE() << "unproven: termination " << r.termination << ", objective " << r.objective
+                    << ", bound " << r.bound << ": " << answer.text;
+      return;
+    }
     ExpectPoint(drawn.problem.data(), answer);
     EXPECT_NEAR(r.objective, optimum, slack);
     EXPECT_GE(r.bound, optimum - slack);

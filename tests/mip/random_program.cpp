@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "tests/shared_headers/random_problem.hpp"
 
@@ -41,6 +42,7 @@ class Draw {
     } else {
       for (const sy_cone& cone : Cones()) DrawCone(cone);
     }
+    if (c == ProgramClass::kPotentials) DrawPotentials();
     DrawRows();
     if (c == ProgramClass::kQuadratic || (c == ProgramClass::kMixed && random_.Chance(0.5))) {
       DrawCurvature();
@@ -98,7 +100,7 @@ class Draw {
     const std::int32_t count = 1 + random_.Below(2);
     std::vector<sy_cone> cones;
     const auto add = [&](ProgramClass c) {
-      if (c == ProgramClass::kLorentz)
+      if (c == ProgramClass::kLorentz || c == ProgramClass::kPotentials)
         cones.push_back({SY_CONE_SECOND_ORDER, 2 + random_.Below(4), 0});
       if (c == ProgramClass::kRotated) cones.push_back({SY_CONE_ROTATED, 3 + random_.Below(3), 0});
       if (c == ProgramClass::kSemidefinite) {
@@ -184,6 +186,35 @@ class Draw {
     d_.row_upper.push_back(random_.Chance(0.5) ? kInfinity : d_.row_lower.back());
   }
 
+  /// Of each entry s = f'x + g of a cone but for its head, v_i - v_k where v_i - v_k - f'x = g,
+  /// over potentials v with a tree of such rows.
+  void DrawPotentials() {
+    const std::int32_t first = size();
+    AddVariable(-kInfinity, kInfinity, 0, false);
+    std::size_t row = 0;
+    for (const sy_cone& cone : d_.cones) {
+      for (std::int32_t i = 0; i < cone.dim; ++i, ++row) {
+        if (i == 0) continue;
+        const std::int32_t other = first + random_.Below(size() - first);
+        const double cost = Quarters(random_);
+        AddVariable(-kInfinity, kInfinity, cost, false);
+        d_.q[At(other)] -= cost;
+        Vector difference(d_.q.size(), 0.0);
+        difference[At(other)] = -1;
+        difference.back() = 1;
+        Vector defined = std::exchange(f_[row], difference);
+        defined.resize(d_.q.size(), 0.0);
+        for (double& value : defined) value = -value;
+        defined[At(other)] = -1;
+        defined.back() = 1;
+        a_.push_back(defined);
+        const double side = std::exchange(d_.g[row], 0.0);
+        d_.row_lower.push_back(side);
+        d_.row_upper.push_back(side);
+      }
+    }
+  }
+
   void DrawRows() {
     const std::int32_t count = random_.Below(class_ == ProgramClass::kLinear ? 5 : 3) + 1;
     for (std::int32_t i = 0; i < count; ++i) {
@@ -228,7 +259,7 @@ class Draw {
 
 const char* NameOf(ProgramClass c) {
   constexpr std::array names = {"Linear",      "Quadratic", "Lorentz", "Rotated", "Semidefinite",
-                                "Exponential", "Power",     "Mixed",   "OnOff"};
+                                "Exponential", "Power",     "Mixed",   "OnOff",   "Potentials"};
   static_assert(names.size() == kProgramClasses.size());
   return names[static_cast<std::size_t>(c)];
 }
