@@ -43,12 +43,35 @@ Activity Least(const Row& row, double sign, const Box& box) {
   return least;
 }
 
-/// No more than min sign r'x + shift over the boxes.
+/// Are all of x fixed, and is sign r'x + shift, summed as Least does, not rounded anywhere?
+template <class Box>
+bool IsExact(const Row& row, double sign, double shift, const Box& box) {
+  double sum = 0;
+  bool exact = true;
+  const auto add = [&](double v) {
+    const double old = sum;
+    sum += v;
+    exact = exact && sum - old == v && sum - v == old;
+  };
+  for (std::int32_t k = 0; k < row.count && exact; ++k) {
+    const double a = sign * row.value[k], x = box.lower(row.column[k]);
+    if (a == 0) continue;
+    exact = x == box.upper(row.column[k]) && std::fma(a, x, -(a * x)) == 0;
+    add(a * x);
+  }
+  add(shift);
+  return exact;
+}
+
+/// No more than min sign r'x + shift over the boxes; that itself where nothing rounds, so that an
+/// entry which fixed variables make 0 is 0.
 template <class Box>
 double LeastValue(const Row& row, double sign, double shift, const Box& box) {
   const Activity least = Least(row, sign, box);
   if (least.infinite > 0) return -kInfinity;
-  return least.sum + shift - least.Slack(row.count, shift);
+  const double slack = least.Slack(row.count, shift);
+  const bool exact = slack > 0 && IsExact(row, sign, shift, box);
+  return least.sum + shift - (exact ? 0 : slack);
 }
 
 /// Narrows the boxes to where sign r'x <= side may hold: a_j x_j <= side - min of the others.
@@ -60,6 +83,7 @@ void NarrowByRow(const Row& row, double sign, double side, Box& box) {
   const double slack = least.Slack(row.count, side);
   if (least.infinite == 0) box.Demand(least.sum - slack, side);
   if (box.infeasible()) return;
+  const double widening = row.count == 1 ? Activity().Slack(1, side) : slack;  // no others to sum
   for (std::int32_t k = 0; k < row.count; ++k) {
     const std::int32_t j = row.column[k];
     const double a = sign * row.value[k];
@@ -67,7 +91,7 @@ void NarrowByRow(const Row& row, double sign, double side, Box& box) {
     const double own = a * (a > 0 ? box.lower(j) : box.upper(j));
     if (least.infinite == 1 && std::isfinite(own)) continue;
     const double rest = std::isfinite(own) ? least.sum - own : least.sum;
-    const double room = (side - rest + slack) / a;
+    const double room = (side - rest + widening) / a;
     if (a > 0) {
       box.Cut(j, room);
     } else {

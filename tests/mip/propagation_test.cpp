@@ -260,6 +260,38 @@ TEST(Propagation, TakesEachRowOfANonnegativeConeByItself) {
   EXPECT_LT(workspace.work() - before, 40) << "one chain has 5 entries";
 }
 
+// The head 0.3 - 0.3 z is 0 for z = 1, and the other one has no end.
+TEST(Propagation, LeavesOfASwitchedOffConeItsFaceExactly) {
+  const auto upper_of_u = [](sy_cone_kind kind, std::vector<std::int32_t> rows) {
+    ProblemData d;  // (z, t, u)
+    d.num_vars = 3;
+    d.q = {0, 1, 0};
+    d.x_lower = {0, -kInfinity, -3};
+    d.x_upper = {1, kInfinity, 3};
+    d.integer = {1, 0, 0};
+    d.A = Csc(0, 3);
+    d.F = Csc(3, 3);
+    d.F.start = {0, 1, 2, 3};
+    d.F.row = rows;
+    d.F.value = {-0.3, 1, 1};
+    d.g = {0, 0, 0};
+    d.g[static_cast<std::size_t>(rows[0])] = 0.3;
+    d.cones = {{kind, 3, 0.4}};
+    const Problem p(d);
+    const Propagator propagator(p.view());
+    Workspace workspace(propagator);
+    NodeBoxes boxes = propagator.Bounds();
+    EXPECT_TRUE(propagator.Propagate(boxes, workspace));
+    EXPECT_EQ(boxes.upper(2), 3);
+    boxes.Impose(0, 1, 1);
+    EXPECT_TRUE(propagator.Propagate(boxes, workspace));
+    return boxes.upper(2);
+  };
+  EXPECT_EQ(upper_of_u(SY_CONE_EXPONENTIAL, {1, 2, 0}), 0);
+  EXPECT_EQ(upper_of_u(SY_CONE_ROTATED, {1, 0, 2}), 0);
+  EXPECT_EQ(upper_of_u(SY_CONE_POWER, {0, 1, 2}), 0);
+}
+
 TEST(Propagation, IsSharedByThreads) {
   const Problem problem(Chains(200));
   const Propagator propagator(problem.view());
