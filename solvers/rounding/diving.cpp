@@ -62,7 +62,8 @@ class Search {
   }
 
   /// The point whose integers are next to x_, an optimum of a relaxation where they are integral:
-  /// as it stands or, where that does not hold, with the continuous rest solved.
+  /// as it stands or, where that does not hold, with the continuous rest solved. A point that holds
+  /// to no more than what is asked costs too little by as much, and is for want of a better.
   void Settle() {
     std::vector<double> point = x_;
     bool integral = true;
@@ -70,11 +71,12 @@ class Search {
       point[At(j)] = domain_.Nearest(j, x_[At(j)]);
       integral = integral && std::abs(point[At(j)] - x_[At(j)]) <= kFeasibility;
     }
+    constexpr double kExact = 1e-9;
     const bool alone = integers().size() == point.size();
-    if (alone || integral) {
-      if (Judge(point) || alone) return;
-    }
+    const bool exact = integral && root_.whole.WhatIsViolatedBy(point, kExact).empty();
+    if ((alone || exact) && (Judge(point) || alone)) return;
     SolveRest(domain_, point);
+    if (integral && !found_.feasible) Judge(point);
   }
 
   /// What rounding by locks found has the rest of another point.
