@@ -171,7 +171,6 @@ void Run::TakeStart() {
 // there is no point yet.
 void Run::Dive() {
   if (root_.state != Relaxed::State::kPoint || paths_ != nullptr) return;
-  OfferIfFeasible(root_.x);
   rounding::Domain domain(whole_);
   if (!domain.Propagate()) return;
   sy_problem relaxation = problem();
