@@ -33,7 +33,7 @@ class Incumbents {
 };
 
 /// Relaxations are solved to a finite accuracy: a relative gap below this counts as closed.
-inline constexpr double kLeastGap = 1e-6;
+inline constexpr double kLeastGap = 3e-7;
 
 /// No point with an objective above this is worth finding: better than `best` by less than the gaps
 /// that were asked for (1e-4 relative where none was), or not below the cutoff.
