@@ -22,6 +22,7 @@ struct Relaxed {
   NodeBound bound;
   double objective = kInfinity;  // of x
   std::vector<double> x;
+  rounding::Duals duals;  // of the problem, where conic nodes have a point
   std::int64_t iterations = 0;
 };
 
