@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "solvers/mip/engine.hpp"
 #include "solvers/mip/node_boxes.hpp"
 #include "solvers/mip/options.hpp"
 #include "solvers/mip/outer_model.hpp"
@@ -30,6 +31,7 @@ struct Instance {
   const sy_solver* conic = nullptr;              // for continuous problems of its shape
   const sy_solver* linear = nullptr;             // for the outer model
   const OuterModel* outer = nullptr;             // nullptr: not of linear and second-order cones
+  const Relaxed* relaxed = nullptr;              // the root by conic nodes, where those bound it
   bool outer_nodes = false;  // else conic ones, and the outer model where those fail
   bool has_continuous = false;
 

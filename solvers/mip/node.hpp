@@ -23,7 +23,8 @@ struct Step {
 struct Node {
   std::shared_ptr<const Node> parent;
   std::vector<VariableBox> decided;
-  double bound = -kInfinity;  // proven: of what it holds
+  std::shared_ptr<const NodeBoxes> base;  // propagated, of an ancestor; nullptr: the root's
+  double bound = -kInfinity;              // proven: of what it holds
   int depth = 0;
   Step step;
   std::int64_t number = 0;  // in the order in which they were opened

@@ -129,6 +129,7 @@ void Run::ChooseEngine() {
   const bool outer =
       options_.engine == EngineKind::kOuter || (options_.engine == EngineKind::kAuto && linear);
   instance_.outer_nodes = outer && root_.state == Relaxed::State::kPoint;
+  if (!instance_.outer_nodes && root_.state == Relaxed::State::kPoint) instance_.relaxed = &root_;
   engine_ = instance_.outer_nodes ? "outer approximation" : "conic nodes";
   if (!why_not.empty()) return;
   outer_.emplace(problem());

@@ -6,6 +6,8 @@
 
 #include "solvers/mip/neighborhood.hpp"
 #include "solvers/mip/path_branching.hpp"
+#include "solvers/mip/path_costs.hpp"
+#include "solvers/mip/path_pricing.hpp"
 
 namespace switchyard::mip {
 namespace {
@@ -40,7 +42,7 @@ Worker::Worker(const Instance& instance, Ledger ledger)
 }
 
 bool Worker::Enter(const Node& node) {
-  boxes_ = instance_.root;
+  boxes_ = node.base != nullptr ? *node.base : instance_.root;
   EachDecision(node,
                [&](const VariableBox& box) { boxes_.Impose(box.variable, box.lower, box.upper); });
   return !boxes_.contradiction();
@@ -57,6 +59,14 @@ void Worker::Plunge(NodePointer node) {
   }
 }
 
+// False: the boxes hold nothing below the cutoff.
+bool Worker::Propagate() {
+  const bool left = instance_.propagator.Propagate(boxes_, workspace_, cutoff_);
+  if (!left || instance_.paths == nullptr) return left;
+  return PropagatePaths(*instance_.paths, boxes_) &&
+         instance_.propagator.Propagate(boxes_, workspace_, cutoff_);
+}
+
 // The node at hand; is there another one to go on with?
 bool Worker::Look() {
   if (ledger_.Stopped()) return false;  // what is held stays part of the bound
@@ -67,12 +77,7 @@ bool Worker::Look() {
     return false;
   };
   if (bound_ >= cutoff_) return close(bound_);
-  bool left = instance_.propagator.Propagate(boxes_, workspace_, cutoff_);
-  if (left && instance_.paths != nullptr) {
-    left = PropagatePaths(*instance_.paths, boxes_) &&
-           instance_.propagator.Propagate(boxes_, workspace_, cutoff_);
-  }
-  if (!left) return close(cutoff_);
+  if (!Propagate()) return close(cutoff_);
   const bool root = node_->depth == 0;
   Relaxed relaxed = Relax(root ? instance_.options.cut_rounds : instance_.options.node_rounds);
   if (relaxed.state == State::kStopped) return false;
@@ -87,6 +92,11 @@ Relaxed Worker::Relax(int rounds) {
   for (std::vector<double>& x : ledger_.NewPoints()) {
     engine_->See(x);
     best_x_ = std::move(x);
+  }
+  if (node_->depth == 0 && cutoff_ == kInfinity && !took_root_ && instance_.relaxed != nullptr) {
+    took_root_ = true;
+    ledger_.CountNode(0);
+    return *instance_.relaxed;
   }
   Relaxed relaxed = engine_->Solve(boxes_, cutoff_, rounds);
   if (relaxed.state == State::kTrouble && !ledger_.Stopped()) relaxed = RelaxOtherwise();
@@ -127,11 +137,30 @@ Worker::End Worker::Judge(Relaxed& relaxed) {
   return End::kClosed;
 }
 
+// Of a path problem where many arcs are open, their blocks are priced, too.
+void Worker::NarrowByReducedCosts(const Relaxed& relaxed, double cutoff) {
+  constexpr std::int64_t kMany = 64;
+  const sy_problem& problem = instance_.problem();
+  const auto impose = [&](const std::vector<VariableBox>& narrower) {
+    for (const VariableBox& t : narrower) boxes_.Impose(t.variable, t.lower, t.upper);
+  };
+  const auto along_paths = [&](const NodeBound& bound) {
+    return ByPathCosts(*instance_.paths, bound, cutoff, boxes_.lower(), boxes_.upper());
+  };
+  impose(ByReducedCosts(problem, relaxed.bound, cutoff, boxes_.lower(), boxes_.upper()));
+  if (instance_.paths == nullptr || !(cutoff < kInfinity)) return;
+  impose(along_paths(relaxed.bound));
+  const sy_paths& paths = instance_.paths->paths();
+  const auto open = std::count_if(paths.flow, paths.flow + paths.num_arcs,
+                                  [&](std::int32_t j) { return boxes_.upper(j) >= 1; });
+  if (open < kMany || relaxed.duals.row.empty()) return;
+  const rounding::Duals priced = WithPricedBlocks(
+      *instance_.paths, relaxed.duals, boxes_, *instance_.conic, instance_.host, ledger_.budget());
+  impose(along_paths(BoundFrom(problem, priced, boxes_.lower(), boxes_.upper())));
+}
+
 Worker::End Worker::JudgePoint(Relaxed& relaxed) {
-  for (const VariableBox& t : ByReducedCosts(instance_.problem(), relaxed.bound, cutoff_,
-                                             boxes_.lower(), boxes_.upper())) {
-    boxes_.Impose(t.variable, t.lower, t.upper);
-  }
+  NarrowByReducedCosts(relaxed, cutoff_);
   if (boxes_.contradiction()) {
     ledger_.Close(cutoff_);
     return End::kClosed;
@@ -144,6 +173,11 @@ Worker::End Worker::JudgePoint(Relaxed& relaxed) {
   TryNear(relaxed.x);
   if (bound_ >= ledger_.cutoff()) {
     ledger_.Close(bound_);
+    return End::kClosed;
+  }
+  if (ledger_.cutoff() < cutoff_) NarrowByReducedCosts(relaxed, ledger_.cutoff());
+  if (boxes_.contradiction()) {
+    ledger_.Close(ledger_.cutoff());
     return End::kClosed;
   }
   // Until there is a point, down is the way: what children would gain is asked at the root alone.
@@ -340,8 +374,14 @@ void Worker::TryNear(const std::vector<double>& x) {
 
 // Of integers, since the node began: the continuous ones follow.
 std::vector<VariableBox> Worker::Decided() const {
-  std::vector<VariableBox> decided = boxes_.NarrowedSince(mark_);
-  std::erase_if(decided, [&](const VariableBox& box) { return !boxes_.IsInteger(box.variable); });
+  std::vector<std::int32_t> changed;
+  for (const VariableBox& old : boxes_.ChangesSince(mark_)) {
+    if (boxes_.IsInteger(old.variable)) changed.push_back(old.variable);
+  }
+  std::sort(changed.begin(), changed.end());
+  changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+  std::vector<VariableBox> decided;
+  for (const std::int32_t j : changed) decided.push_back({j, boxes_.lower(j), boxes_.upper(j)});
   return decided;
 }
 
@@ -355,12 +395,19 @@ bool Worker::IsWorthGoingOn() const {
 
 // Into the child to look at first; the other is open. False: the plunge ends here, both are open.
 bool Worker::Descend(Split split) {
+  std::shared_ptr<const NodeBoxes> base = node_->base;
+  if (node_->depth == 0 && Propagate()) {
+    auto narrowed = std::make_shared<NodeBoxes>(boxes_);
+    narrowed->Commit();
+    base = std::move(narrowed);
+  }
   const std::vector<VariableBox> decided = Decided();
   NodePointer nodes[2];
   for (const int side : {0, 1}) {
     auto child = std::make_shared<Node>();
     child->parent = node_;
     child->decided = decided;
+    child->base = base;
     Child& given = split.children[side];
     child->decided.insert(child->decided.end(), given.decided.begin(), given.decided.end());
     child->bound = bound_;

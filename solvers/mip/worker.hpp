@@ -33,6 +33,7 @@ class Worker {
   enum class End { kClosed, kAgain, kSplit };
 
   bool Enter(const Node& node);
+  bool Propagate();
   bool Look();
   Relaxed Relax(int rounds);
   Relaxed RelaxOtherwise();
@@ -48,6 +49,7 @@ class Worker {
   void TryPaths(const std::vector<double>& x);
   void TryRounding(const std::vector<double>& x);
   void TryNear(const std::vector<double>& x);
+  void NarrowByReducedCosts(const Relaxed& relaxed, double cutoff);
   bool Descend(Split split);
   void GiveUp(double bound);
   void LearnFrom(const Relaxed& relaxed);
@@ -68,6 +70,7 @@ class Worker {
   NodePointer node_;      // at hand
   double bound_ = -kInfinity;
   double cutoff_ = kInfinity;             // that the node at hand is looked at with
+  bool took_root_ = false;                // of the root, what was known before
   int length_ = 0;                        // of the plunge
   std::int64_t near_at_ = 8;              // nodes after which the best neighborhood is searched
   std::vector<double> best_x_;            // that it has heard of
