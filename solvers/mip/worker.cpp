@@ -16,6 +16,9 @@ using State = Relaxed::State;
 
 std::size_t At(std::int32_t j) { return static_cast<std::size_t>(j); }
 
+// What trouble leaves where there is no point goes as far as the tolerance lets it: with an integer
+// that switches a cone's head off, far.
+constexpr double kFine = 1e-8;
 constexpr int kIntegralRounds = 20;  // of cuts at a point whose integers are whole
 constexpr std::int64_t kNodesOfARound = 8;
 constexpr int kShortPlunge = 4;  // children, whatever the bound
@@ -223,7 +226,7 @@ Worker::End Worker::JudgeIntegral(Relaxed& relaxed) {
   if (rest.state == State::kPoint) {
     engine_->See(rest.x);
   } else {
-    TryPoint(relaxed.x);
+    TryPoint(relaxed.x, instance_.outer_nodes ? kFeasible : kFine);
   }
   if (ledger_.cutoff() < cutoff_) return End::kAgain;
   if (IsFixed()) {
@@ -261,7 +264,7 @@ void Worker::JudgeLeaf(const Relaxed& rest) {
   for (const bool in_all_boxes : {false, true}) {
     if (proven >= ledger_.cutoff() || ledger_.Stopped()) break;
     const Relaxed fine = Fixed().SolveFinely(boxes_, cutoff_, in_all_boxes);
-    if (fine.state == State::kPoint) TryPoint(fine.x);
+    if (fine.state == State::kPoint) TryRest(fine.x);
     proven = std::max(proven, proven_by(fine));
   }
   if (proven >= ledger_.cutoff()) {
@@ -269,6 +272,11 @@ void Worker::JudgeLeaf(const Relaxed& rest) {
   } else {
     GiveUp(proven);
   }
+}
+
+// What trouble left counts where it holds finely.
+void Worker::TryRest(const std::vector<double>& x) {
+  TryPoint(x, Fixed().last_termination() == SY_OPTIMAL ? kFeasible : kFine);
 }
 
 ConicEngine& Worker::Fixed() {
@@ -279,11 +287,11 @@ ConicEngine& Worker::Fixed() {
   return *fixed_;
 }
 
-void Worker::TryPoint(std::vector<double> x) {
+void Worker::TryPoint(std::vector<double> x, double tolerance) {
   for (const std::int32_t j : instance_.whole.integers()) x[At(j)] = std::round(x[At(j)]);
   const double objective = Objective(instance_.problem(), x.data());
   if (!(objective < ledger_.best())) return;
-  if (!instance_.whole.WhatIsViolatedBy(x, kFeasible).empty()) return;
+  if (!instance_.whole.WhatIsViolatedBy(x, tolerance).empty()) return;
   ledger_.Offer(objective, x);
 }
 
@@ -301,7 +309,7 @@ Relaxed Worker::SolveFixed(const std::vector<double>& x) {
   const bool is_new = x.empty() || solved_.insert(integers).second || IsFixed();
   if (is_new && instance_.propagator.Propagate(boxes_, workspace_, cutoff_)) {
     rest = Fixed().Solve(boxes_, cutoff_, 0);
-    if (rest.state == State::kPoint && !x.empty()) TryPoint(rest.x);
+    if (rest.state == State::kPoint && !x.empty()) TryRest(rest.x);
   }
   boxes_.UndoTo(mark);
   return rest;

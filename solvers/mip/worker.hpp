@@ -41,7 +41,9 @@ class Worker {
   End JudgePoint(Relaxed& relaxed);
   End JudgeIntegral(Relaxed& relaxed);
   void JudgeLeaf(const Relaxed& rest);
-  void TryPoint(std::vector<double> x);
+  void TryPoint(std::vector<double> x, double tolerance = kFeasible);
+  /// What the engine of rests found last.
+  void TryRest(const std::vector<double>& x);
   /// Of the integers of a point: their best continuous rest.
   Relaxed SolveFixed(const std::vector<double>& x);
   /// The engine of such rests.
