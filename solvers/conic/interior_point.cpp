@@ -11,11 +11,23 @@ namespace switchyard::conic {
 using linalg::AddMultiple;
 using linalg::Dot;
 
+namespace {
+
+// Entries of A and L. Below, threads are longer on their way to a loop than the loop takes.
+constexpr double kWorthSharing = 1.5e5;
+
+int ThreadsFor(const Form& form, const Kkt& kkt, int threads) {
+  const double entries = form.A.nonzeros() + kkt.factors().factor_size();
+  return entries >= kWorthSharing ? threads : 1;
+}
+
+}  // namespace
+
 InteriorPoint::InteriorPoint(const Form& form, Kkt& kkt, const InteriorPointOptions& options,
                              Watch watch, Judge judge)
     : form_(form),
       kkt_(kkt),
-      workers_(options.threads),
+      workers_(ThreadsFor(form, kkt, options.threads)),
       cones_(form, &workers_),
       options_(options),
       watch_(std::move(watch)),
