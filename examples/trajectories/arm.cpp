@@ -84,6 +84,6 @@ int main(int argc, char** argv) {
   std::cout << "in " << found.trajectory.end_time() << " s through "
             << found.segment_vertices.size() << " regions: cost " << found.result().objective
             << ", bound " << found.result().bound << "; " << found.search.rounded.size()
-            << " paths were compared\n";
+            << " paths were solved\n";
   if (argc > 1) Draw(argv[1], found.trajectory, kSpeed);
 }

@@ -106,24 +106,31 @@ TEST(Detours, OfNothingAreNone) {
   EXPECT_TRUE(rounding::Detours(g.arcs(), {}, {}).empty());
 }
 
+/// Of arcs; infinite: not to be used.
+std::vector<double> RandomLengths(const Graph& g, std::uint64_t seed) {
+  std::mt19937_64 engine(seed);
+  std::vector<double> length;
+  for (std::size_t a = 0; a < g.tail.size(); ++a) {
+    length.push_back(engine() % 6 == 0 ? HUGE_VAL : 0.1 + 1e-3 * double(engine() % 1000));
+  }
+  return length;
+}
+
+double LengthOf(const std::vector<double>& length, const Path& path) {
+  double sum = 0;
+  for (const std::int32_t a : path) sum += length[At(a)];
+  return sum;
+}
+
 /// For each place and other arc there: the shortest simple path that begins so.
 TEST(Deviations, AreTheShortestPathsThatLeaveAPathThere) {
   std::size_t made = 0;
   for (std::uint64_t seed = 1; seed <= 800; ++seed) {
     const Graph g(seed);
-    std::mt19937_64 engine(seed);
-    std::vector<double> length;
-    for (std::size_t a = 0; a < g.tail.size(); ++a) {
-      length.push_back(engine() % 6 == 0 ? HUGE_VAL : 0.1 + 1e-3 * double(engine() % 1000));
-    }
-    const auto length_of = [&](const Path& path) {
-      double sum = 0;
-      for (const std::int32_t a : path) sum += length[At(a)];
-      return sum;
-    };
+    const std::vector<double> length = RandomLengths(g, seed);
     const Leaving out(g.arcs());
     for (const Path& path : g.paths) {
-      if (length_of(path) == HUGE_VAL) continue;
+      if (LengthOf(length, path) == HUGE_VAL) continue;
       std::vector<double> shortest;  // by place and arc
       for (std::size_t k = 0; k < path.size(); ++k) {
         for (const std::int32_t a : out.Of(g.tail[At(path[k])])) {
@@ -132,7 +139,7 @@ TEST(Deviations, AreTheShortestPathsThatLeaveAPathThere) {
             const bool begins =
                 other.size() > k && other[k] == a && a != path[k] &&
                 std::equal(path.begin(), path.begin() + std::ptrdiff_t(k), other.begin());
-            if (begins) best = std::min(best, length_of(other));
+            if (begins) best = std::min(best, LengthOf(length, other));
           }
           if (best < HUGE_VAL) shortest.push_back(best);
         }
@@ -141,7 +148,7 @@ TEST(Deviations, AreTheShortestPathsThatLeaveAPathThere) {
       const auto deviations = rounding::Deviations(g.arcs(), out, length, path, g.num_vertices - 1);
       ASSERT_EQ(deviations.size(), shortest.size());
       for (std::size_t k = 0; k < shortest.size(); ++k) {
-        EXPECT_NEAR(length_of(deviations[k]), shortest[k], 1e-12);
+        EXPECT_NEAR(LengthOf(length, deviations[k]), shortest[k], 1e-12);
         EXPECT_EQ(std::count(g.paths.begin(), g.paths.end(), deviations[k]), 1);
       }
       made += shortest.size();
@@ -162,8 +169,7 @@ std::multimap<double, Path> ExchangesByDefinition(const Graph& g, const Path& pa
     while (front + back < shorter && path[path.size() - 1 - back] == other[other.size() - 1 - back])
       ++back;
     if (other == path || std::max(path.size(), other.size()) - front - back > 3) continue;
-    double sum = 0;
-    for (const std::int32_t a : other) sum += length[At(a)];
+    const double sum = LengthOf(length, other);
     if (sum < HUGE_VAL) all.emplace(sum, other);
   }
   return all;
@@ -173,15 +179,9 @@ TEST(Exchanges, AreThePathsThatDifferInAShortStretchTheShortestFirst) {
   std::size_t made = 0, turned = 0;
   for (std::uint64_t seed = 1; seed <= 800; ++seed) {
     const Graph g(seed);
-    std::mt19937_64 engine(seed);
-    std::vector<double> length;
-    for (std::size_t a = 0; a < g.tail.size(); ++a) {
-      length.push_back(engine() % 6 == 0 ? HUGE_VAL : 0.1 + 1e-3 * double(engine() % 1000));
-    }
+    const std::vector<double> length = RandomLengths(g, seed);
     for (const Path& path : g.paths) {
-      double total = 0;
-      for (const std::int32_t a : path) total += length[At(a)];
-      if (total == HUGE_VAL) continue;
+      if (LengthOf(length, path) == HUGE_VAL) continue;
       const auto exchanges = rounding::Exchanges(g.arcs(), Leaving(g.arcs()), length, path);
       const auto expected = ExchangesByDefinition(g, path, length);
       std::set<Path> wanted, all(exchanges.begin(), exchanges.end());
@@ -190,9 +190,7 @@ TEST(Exchanges, AreThePathsThatDifferInAShortStretchTheShortestFirst) {
       ASSERT_EQ(exchanges.size(), expected.size());  // none twice
       auto next = expected.begin();
       for (const Path& other : exchanges) {
-        double sum = 0;
-        for (const std::int32_t a : other) sum += length[At(a)];
-        EXPECT_NEAR(sum, (next++)->first, 1e-12);
+        EXPECT_NEAR(LengthOf(length, other), (next++)->first, 1e-12);
         auto along = g.Along(path), by_other = g.Along(other);
         std::sort(along.begin(), along.end());
         std::sort(by_other.begin(), by_other.end());
