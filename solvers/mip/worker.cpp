@@ -199,6 +199,7 @@ Worker::End Worker::JudgePoint(Relaxed& relaxed) {
   }
   if (lookahead.tightened || ledger_.Stopped()) return End::kAgain;
   if (!split) split = SplitAnywhere(instance_.whole, boxes_, relaxed.x);
+  if (!split) return End::kAgain;  // below a point that was found now, all integers are fixed
   return Descend(std::move(*split)) ? End::kSplit : End::kClosed;
 }
 
