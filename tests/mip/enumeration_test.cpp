@@ -228,30 +228,38 @@ TEST(Enumeration, KnowsWhatASwitchedOffConeLeaves) {
   EXPECT_EQ(norm(1.5).undecided, 0);
 }
 
+void ExpectProven(ProgramClass c, std::uint32_t seed) {
+  SCOPED_TRACE(::testing::Message() << NameOf(c) << " of seed " << seed);
+  const Drawn& drawn = DrawnProgram(c, seed);
+  ASSERT_EQ(drawn.known.undecided, 0);
+  const double optimum = drawn.known.optimum;
+  const BackendAnswer answer =
+      SolveThroughHost(Built(), "branch-and-bound", drawn.problem.view(), Unlimited());
+  EXPECT_EQ(answer.result.termination, optimum < kInfinity ? SY_OPTIMAL : SY_INFEASIBLE)
+      << answer.text;
+  if (optimum < kInfinity) {
+    EXPECT_NEAR(answer.result.objective, optimum, 1e-4 * (1 + std::abs(optimum)));
+  }
+}
+
 // Rests without an interior, whose certificates have no duals or none that rounding leaves: an
 // exponential cone that is switched off, a free diagonal of a semidefinite one, an optimum next to
 // where a cone's boundary is flat.
 TEST(BranchAndBound, ProvesWhatHasNoInterior) {
   SKIP_WITHOUT("branch-and-bound");
   SKIP_WITHOUT("conic");
-  const std::pair<ProgramClass, std::uint32_t> programs[] = {
-      {ProgramClass::kOnOff, 61},         {ProgramClass::kOnOff, 272},
-      {ProgramClass::kOnOff, 416},        {ProgramClass::kSemidefinite, 205},
-      {ProgramClass::kSemidefinite, 992}, {ProgramClass::kMixed, 1120},
-      {ProgramClass::kExponential, 94},   {ProgramClass::kPotentials, 150}};
-  for (const auto& [c, seed] : programs) {
-    SCOPED_TRACE(::testing::Message() << NameOf(c) << " of seed " << seed);
-    const Drawn& drawn = DrawnProgram(c, seed);
-    ASSERT_EQ(drawn.known.undecided, 0);
-    const double optimum = drawn.known.optimum;
-    const BackendAnswer answer =
-        SolveThroughHost(Built(), "branch-and-bound", drawn.problem.view(), Unlimited());
-    EXPECT_EQ(answer.result.termination, optimum < kInfinity ? SY_OPTIMAL : SY_INFEASIBLE)
-        << answer.text;
-    if (optimum < kInfinity) {
-      EXPECT_NEAR(answer.result.objective, optimum, 1e-4 * (1 + std::abs(optimum)));
-    }
-  }
+  for (const std::uint32_t seed : {61, 272, 416}) ExpectProven(ProgramClass::kOnOff, seed);
+  for (const std::uint32_t seed : {205, 992}) ExpectProven(ProgramClass::kSemidefinite, seed);
+  ExpectProven(ProgramClass::kMixed, 1120);
+  ExpectProven(ProgramClass::kExponential, 94);
+  ExpectProven(ProgramClass::kPotentials, 150);
+}
+
+// A point is found while a node is looked at, and below it all integers of the node are fixed.
+TEST(BranchAndBound, GoesOnWhereAPointLeavesNothingToSplit) {
+  SKIP_WITHOUT("branch-and-bound");
+  SKIP_WITHOUT("conic");
+  ExpectProven(ProgramClass::kExponential, 990);
 }
 
 // No class is tested on one side alone, nor little of it.
